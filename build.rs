@@ -1,0 +1,36 @@
+//! Makes the FMU's face from `modelDescription/*.toml`: modelDescription.xml, the Rust constants
+//! that the code uses, and the documentation's table of variables, so that they cannot disagree.
+
+#[path = "build/table.rs"]
+mod table;
+
+#[path = "build/html.rs"]
+mod html;
+#[path = "build/rust.rs"]
+mod rust;
+#[path = "build/xml.rs"]
+mod xml;
+
+use std::{env, error::Error, fs, path::Path};
+
+const VARIABLES: &str = "modelDescription/variables.toml";
+const UNITS: &str = "modelDescription/units.toml";
+
+fn main() -> Result<(), Box<dyn Error>> {
+    for input in ["build.rs", "build", VARIABLES, UNITS] {
+        println!("cargo::rerun-if-changed={input}");
+    }
+    let out = env::var("OUT_DIR")?;
+    let out = Path::new(&out);
+    let version = env::var("CARGO_PKG_VERSION")?;
+
+    let table = table::Table::read(VARIABLES, UNITS)?;
+    let guid = xml::fingerprint(&table, &version)?;
+    fs::write(
+        out.join("modelDescription.xml"),
+        xml::model_description(&table, &version, &guid)?,
+    )?;
+    fs::write(out.join("variables.rs"), rust::constants(&table, &guid)?)?;
+    fs::write(out.join("variables.html"), html::variables(&table))?;
+    Ok(())
+}

@@ -1,0 +1,94 @@
+//! The documentation's table of variables.
+
+use crate::table::{Base, Table, Variable};
+
+pub fn variables(table: &Table) -> String {
+    let mut html = String::new();
+    for (causality, title) in [
+        ("input", "Inputs"),
+        ("output", "Outputs"),
+        ("parameter", "Parameters"),
+    ] {
+        html += &format!(
+            "<h3>{title}</h3>\n<table>\n<tr><th>Name</th><th>Unit or type</th><th>Default</th><th>Range</th><th>Meaning</th></tr>\n"
+        );
+        for v in table.variables.iter().filter(|v| v.causality == causality) {
+            html += &format!(
+                "<tr><td><code>{}</code></td><td>{}</td><td>{}</td><td>{}</td><td>{}{}</td></tr>\n",
+                v.name,
+                unit_or_type(v),
+                default(table, v),
+                range(v),
+                escape(&v.description),
+                if v.variability() == "tunable" { " (tunable)" } else { "" },
+            );
+        }
+        html += "</table>\n";
+    }
+    html += "<h3>Choices</h3>\n<table>\n<tr><th>Type</th><th>Choice</th><th>Value</th><th>Meaning</th></tr>\n";
+    for enumeration in &table.enumerations {
+        for (i, item) in enumeration.items.iter().enumerate() {
+            html += &format!(
+                "<tr><td>{}</td><td><code>{}</code></td><td>{}</td><td>{}</td></tr>\n",
+                enumeration.name,
+                item.name,
+                i + 1,
+                escape(&item.description)
+            );
+        }
+    }
+    html += "</table>\n";
+    html
+}
+
+fn unit_or_type(v: &Variable) -> String {
+    match (&v.unit, &v.display_unit) {
+        (Some(unit), Some(display)) => format!("{unit} (shown in {display})"),
+        (Some(unit), None) => unit.clone(),
+        _ => v.kind.clone(),
+    }
+}
+
+fn default(table: &Table, v: &Variable) -> String {
+    match (&v.start, v.base()) {
+        (None, _) => String::new(),
+        (Some(start), Base::Real) => {
+            let value = start.as_float().unwrap_or_default();
+            let shown = v.display_unit.as_ref().and_then(|name| {
+                let unit = table.units.iter().find(|u| Some(&u.name) == v.unit.as_ref())?;
+                let display = unit.display.iter().find(|d| &d.name == name)?;
+                let value = value * display.factor + display.offset.unwrap_or(0.0);
+                Some(format!("{} {name}", short(value)))
+            });
+            shown.unwrap_or_else(|| short(value))
+        }
+        (Some(start), Base::String) => format!("<code>{}</code>", escape(start.as_str().unwrap_or(""))),
+        (Some(start), Base::Integer) => match start.as_str() {
+            Some(choice) => format!("<code>{choice}</code>"),
+            None => start.to_string(),
+        },
+    }
+}
+
+fn range(v: &Variable) -> String {
+    match (v.min, v.max) {
+        (Some(min), Some(max)) => format!("{} to {}", short(min), short(max)),
+        _ => String::new(),
+    }
+}
+
+/// At most six decimals, without trailing zeros.
+fn short(value: f64) -> String {
+    let text = format!("{value:.6}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text == "0" && value != 0.0 {
+        return format!("{value:e}");
+    }
+    text.to_owned()
+}
+
+fn escape(text: &str) -> String {
+    text.replace('&', "&amp;")
+        .replace('<', "&lt;")
+        .replace('>', "&gt;")
+}

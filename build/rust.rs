@@ -1,0 +1,150 @@
+//! The Rust constants that the code uses: one static array of variables for each FMI base type,
+//! the places in it by name, and one Rust enumeration for each of the table's.
+
+use crate::table::{Base, Table, Variable};
+use std::fmt::{self, Write};
+
+pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
+    let mut text = String::new();
+    let out = &mut text;
+    writeln!(out, "/// Fingerprint of modelDescription.xml.")?;
+    writeln!(out, "pub const GUID: &str = {guid:?};")?;
+    writeln!(out, "/// `modelIdentifier` of modelDescription.xml.")?;
+    writeln!(
+        out,
+        "pub const MODEL_IDENTIFIER: &str = {:?};",
+        table.model.model_name
+    )?;
+    let categories: Vec<&str> = table
+        .log_categories
+        .iter()
+        .map(|c| c.name.as_str())
+        .collect();
+    writeln!(out, "/// The log categories that are declared.")?;
+    writeln!(
+        out,
+        "pub const LOG_CATEGORIES: [&str; {}] = {categories:?};",
+        categories.len()
+    )?;
+
+    for (base, module, array, rust_type) in [
+        (Base::Real, "real", "REALS", "f64"),
+        (Base::Integer, "integer", "INTEGERS", "i32"),
+        (Base::String, "string", "STRINGS", "&str"),
+    ] {
+        let variables: Vec<&Variable> = table.of_base(base).collect();
+        writeln!(out, "/// Variables of this base type, by value reference.")?;
+        writeln!(
+            out,
+            "pub static {array}: [Variable<{rust_type}>; {}] = [",
+            variables.len()
+        )?;
+        for v in &variables {
+            writeln!(out, "    {},", row(table, v))?;
+        }
+        writeln!(out, "];")?;
+        writeln!(out, "/// Value references, which are places in `{array}`.")?;
+        writeln!(out, "pub mod {module} {{")?;
+        for (i, v) in variables.iter().enumerate() {
+            writeln!(out, "    /// {}", v.description)?;
+            writeln!(
+                out,
+                "    pub const {}: usize = {i};",
+                constant_name(&v.name)
+            )?;
+        }
+        writeln!(out, "}}")?;
+    }
+    for enumeration in &table.enumerations {
+        writeln!(out, "/// {}", enumeration.description)?;
+        writeln!(out, "#[derive(Clone, Copy, Debug, PartialEq, Eq)]")?;
+        writeln!(out, "pub enum {} {{", enumeration.name)?;
+        for (i, item) in enumeration.items.iter().enumerate() {
+            writeln!(out, "    /// {}", item.description)?;
+            writeln!(out, "    {} = {},", camel(&item.name), i + 1)?;
+        }
+        writeln!(out, "}}")?;
+        writeln!(out, "impl {} {{", enumeration.name)?;
+        writeln!(out, "    /// The choice behind the integer that FMI passes.")?;
+        writeln!(out, "    pub fn from_integer(value: i32) -> Option<Self> {{")?;
+        writeln!(out, "        match value {{")?;
+        for (i, item) in enumeration.items.iter().enumerate() {
+            writeln!(
+                out,
+                "            {} => Some(Self::{}),",
+                i + 1,
+                camel(&item.name)
+            )?;
+        }
+        writeln!(out, "            _ => None,\n        }}\n    }}\n}}")?;
+    }
+    Ok(text)
+}
+
+fn row(table: &Table, v: &Variable) -> String {
+    let (start, min, max) = match v.base() {
+        Base::Real => (
+            format!("{:?}", v.start.as_ref().and_then(|s| s.as_float()).unwrap_or(0.0)),
+            v.min.map_or("f64::NEG_INFINITY".into(), |x| format!("{x:?}")),
+            v.max.map_or("f64::INFINITY".into(), |x| format!("{x:?}")),
+        ),
+        Base::String => (
+            format!("{:?}", v.start.as_ref().and_then(|s| s.as_str()).unwrap_or("")),
+            "\"\"".into(),
+            "\"\"".into(),
+        ),
+        Base::Integer => {
+            let enumeration = table.enumeration(&v.kind);
+            let start = match table.enumeration_start(v) {
+                Some(item) => item as i64,
+                None => v.start.as_ref().and_then(|s| s.as_integer()).unwrap_or(0),
+            };
+            let last = enumeration.map(|e| e.items.len() as f64);
+            let first = enumeration.map(|_| 1.0);
+            (
+                start.to_string(),
+                (first.or(v.min).unwrap_or(f64::from(i32::MIN)) as i32).to_string(),
+                (last.or(v.max).unwrap_or(f64::from(i32::MAX)) as i32).to_string(),
+            )
+        }
+    };
+    let choices: Vec<&str> = table
+        .enumeration(&v.kind)
+        .map(|e| e.items.iter().map(|i| i.name.as_str()).collect())
+        .unwrap_or_default();
+    format!(
+        "Variable {{ name: {:?}, causality: Causality::{}, tunable: {}, unit: {:?}, start: {start}, min: {min}, max: {max}, choices: &{choices:?} }}",
+        v.name,
+        camel(&v.causality),
+        v.variability() == "tunable",
+        v.unit.as_deref().unwrap_or(""),
+    )
+}
+
+/// `geometry.radius` -> `GEOMETRY__RADIUS`, `airDensity` -> `AIR_DENSITY`, `force[1]` -> `FORCE_1`.
+/// The two underscores keep `air.density` and `airDensity` apart.
+fn constant_name(name: &str) -> String {
+    let mut constant = String::new();
+    for c in name.chars() {
+        match c {
+            '.' => constant.push_str("__"),
+            '[' => constant.push('_'),
+            ']' => {}
+            c if c.is_uppercase() => {
+                constant.push('_');
+                constant.push(c);
+            }
+            c => constant.extend(c.to_uppercase()),
+        }
+    }
+    constant
+}
+
+/// `karmanTsien` -> `KarmanTsien`.
+fn camel(name: &str) -> String {
+    let mut chars = name.chars();
+    chars
+        .next()
+        .map(|first| first.to_uppercase().chain(chars).collect())
+        .unwrap_or_default()
+}

@@ -1,0 +1,275 @@
+//! modelDescription.xml of FMI 2.0 (fmi2ModelDescription.xsd) from the table.
+
+use crate::table::{Base, Table, Variable};
+use quick_xml::{
+    Writer,
+    events::{BytesDecl, Event},
+};
+use sha2::{Digest, Sha256};
+use std::io;
+
+/// GUID: the SHA-256 of the description with an empty GUID, in the usual 8-4-4-4-12 digits. The
+/// same content gives the same GUID on every platform.
+pub fn fingerprint(table: &Table, version: &str) -> io::Result<String> {
+    let digest = Sha256::digest(model_description(table, version, "")?);
+    let hex: String = digest.iter().map(|byte| format!("{byte:02x}")).collect();
+    Ok(format!(
+        "{{{}-{}-{}-{}-{}}}",
+        &hex[0..8],
+        &hex[8..12],
+        &hex[12..16],
+        &hex[16..20],
+        &hex[20..32]
+    ))
+}
+
+type Xml = Writer<Vec<u8>>;
+
+pub fn model_description(table: &Table, version: &str, guid: &str) -> io::Result<Vec<u8>> {
+    let mut xml = Writer::new_with_indent(Vec::new(), b' ', 2);
+    xml.write_event(Event::Decl(BytesDecl::new("1.0", Some("UTF-8"), None)))?;
+    xml.create_element("fmiModelDescription")
+        .with_attributes([
+            ("fmiVersion", "2.0"),
+            ("modelName", table.model.model_name.as_str()),
+            ("guid", guid),
+            ("description", table.model.description.as_str()),
+            ("version", version),
+            ("license", table.model.license.as_str()),
+            (
+                "generationTool",
+                format!("helicopter-rotor {version}").as_str(),
+            ),
+            ("variableNamingConvention", "structured"),
+        ])
+        .write_inner_content(|xml| {
+            co_simulation(xml, table)?;
+            units(xml, table)?;
+            types(xml, table)?;
+            log_categories(xml, table)?;
+            default_experiment(xml, table)?;
+            xml.create_element("ModelVariables")
+                .write_inner_content(|xml| {
+                    table
+                        .variables
+                        .iter()
+                        .try_for_each(|v| variable(xml, table, v))
+                })?;
+            model_structure(xml, table)
+        })?;
+    let mut bytes = xml.into_inner();
+    bytes.push(b'\n');
+    Ok(bytes)
+}
+
+fn co_simulation(xml: &mut Xml, table: &Table) -> io::Result<()> {
+    xml.create_element("CoSimulation")
+        .with_attributes([
+            ("modelIdentifier", table.model.model_name.as_str()),
+            ("needsExecutionTool", "false"),
+            ("canHandleVariableCommunicationStepSize", "true"),
+            ("canInterpolateInputs", "false"),
+            ("maxOutputDerivativeOrder", "0"),
+            ("canRunAsynchronuously", "false"),
+            ("canBeInstantiatedOnlyOncePerProcess", "false"),
+            ("canNotUseMemoryManagementFunctions", "true"),
+            ("canGetAndSetFMUstate", "false"),
+            ("canSerializeFMUstate", "false"),
+            ("providesDirectionalDerivative", "false"),
+        ])
+        .write_empty()?;
+    Ok(())
+}
+
+fn units(xml: &mut Xml, table: &Table) -> io::Result<()> {
+    xml.create_element("UnitDefinitions")
+        .write_inner_content(|xml| {
+            for unit in &table.units {
+                xml.create_element("Unit")
+                    .with_attribute(("name", unit.name.as_str()))
+                    .write_inner_content(|xml| {
+                        let mut base = xml.create_element("BaseUnit");
+                        for (name, exponent) in &unit.base {
+                            base = base
+                                .with_attribute((name.as_str(), exponent.to_string().as_str()));
+                        }
+                        if let Some(factor) = unit.factor {
+                            base = base.with_attribute(("factor", number(factor).as_str()));
+                        }
+                        base.write_empty()?;
+                        for display in &unit.display {
+                            let mut element = xml
+                                .create_element("DisplayUnit")
+                                .with_attribute(("name", display.name.as_str()))
+                                .with_attribute(("factor", number(display.factor).as_str()));
+                            if let Some(offset) = display.offset {
+                                element =
+                                    element.with_attribute(("offset", number(offset).as_str()));
+                            }
+                            element.write_empty()?;
+                        }
+                        Ok(())
+                    })?;
+            }
+            Ok(())
+        })?;
+    Ok(())
+}
+
+fn types(xml: &mut Xml, table: &Table) -> io::Result<()> {
+    xml.create_element("TypeDefinitions")
+        .write_inner_content(|xml| {
+            for enumeration in &table.enumerations {
+                xml.create_element("SimpleType")
+                    .with_attribute(("name", enumeration.name.as_str()))
+                    .with_attribute(("description", enumeration.description.as_str()))
+                    .write_inner_content(|xml| {
+                        xml.create_element("Enumeration")
+                            .write_inner_content(|xml| {
+                                for (i, item) in enumeration.items.iter().enumerate() {
+                                    xml.create_element("Item")
+                                        .with_attribute(("name", item.name.as_str()))
+                                        .with_attribute(("value", (i + 1).to_string().as_str()))
+                                        .with_attribute(("description", item.description.as_str()))
+                                        .write_empty()?;
+                                }
+                                Ok(())
+                            })?;
+                        Ok(())
+                    })?;
+            }
+            Ok(())
+        })?;
+    Ok(())
+}
+
+fn log_categories(xml: &mut Xml, table: &Table) -> io::Result<()> {
+    xml.create_element("LogCategories")
+        .write_inner_content(|xml| {
+            for category in &table.log_categories {
+                xml.create_element("Category")
+                    .with_attribute(("name", category.name.as_str()))
+                    .with_attribute(("description", category.description.as_str()))
+                    .write_empty()?;
+            }
+            Ok(())
+        })?;
+    Ok(())
+}
+
+fn default_experiment(xml: &mut Xml, table: &Table) -> io::Result<()> {
+    let experiment = &table.default_experiment;
+    xml.create_element("DefaultExperiment")
+        .with_attribute(("startTime", number(experiment.start_time).as_str()))
+        .with_attribute(("stopTime", number(experiment.stop_time).as_str()))
+        .with_attribute(("stepSize", number(experiment.step_size).as_str()))
+        .write_empty()?;
+    Ok(())
+}
+
+fn variable(xml: &mut Xml, table: &Table, v: &Variable) -> io::Result<()> {
+    let reference = table.value_reference(v).to_string();
+    let mut element = xml.create_element("ScalarVariable").with_attributes([
+        ("name", v.name.as_str()),
+        ("valueReference", reference.as_str()),
+        ("description", v.description.as_str()),
+        ("causality", v.causality.as_str()),
+        ("variability", v.variability()),
+    ]);
+    match v.causality.as_str() {
+        "output" => element = element.with_attribute(("initial", "calculated")),
+        "parameter" => element = element.with_attribute(("initial", "exact")),
+        _ => {}
+    }
+    element.write_inner_content(|xml| {
+        let is_enumeration = table.enumeration(&v.kind).is_some();
+        let tag = if is_enumeration {
+            "Enumeration"
+        } else {
+            v.kind.as_str()
+        };
+        let mut inner = xml.create_element(tag);
+        if is_enumeration {
+            inner = inner.with_attribute(("declaredType", v.kind.as_str()));
+        }
+        for (name, value) in [("unit", &v.unit), ("displayUnit", &v.display_unit)] {
+            if let Some(value) = value {
+                inner = inner.with_attribute((name, value.as_str()));
+            }
+        }
+        for (name, value) in [("min", v.min), ("max", v.max)] {
+            if let Some(value) = value {
+                inner = inner.with_attribute((name, number(value).as_str()));
+            }
+        }
+        if let Some(start) = start_text(table, v) {
+            inner = inner.with_attribute(("start", start.as_str()));
+        }
+        inner.write_empty()?;
+        Ok(())
+    })?;
+    Ok(())
+}
+
+fn start_text(table: &Table, v: &Variable) -> Option<String> {
+    let start = v.start.as_ref()?;
+    Some(match v.base() {
+        Base::Real => number(start.as_float()?),
+        Base::String => start.as_str()?.to_owned(),
+        Base::Integer => match table.enumeration_start(v) {
+            Some(item) => item.to_string(),
+            None => start.as_integer()?.to_string(),
+        },
+    })
+}
+
+/// Outputs with their true dependencies. Before initialisation ends, an output depends on the
+/// parameters as well, which InitialUnknowns may leave to "all that is known" (no attribute).
+fn model_structure(xml: &mut Xml, table: &Table) -> io::Result<()> {
+    let outputs = || table.variables.iter().filter(|v| v.causality == "output");
+    xml.create_element("ModelStructure")
+        .write_inner_content(|xml| {
+            xml.create_element("Outputs").write_inner_content(|xml| {
+                for v in outputs() {
+                    let indices: Vec<usize> = match &v.depends_on {
+                        Some(names) => names.iter().filter_map(|n| table.index(n)).collect(),
+                        None => table
+                            .variables
+                            .iter()
+                            .filter(|i| i.causality == "input")
+                            .filter_map(|i| table.index(&i.name))
+                            .collect(),
+                    };
+                    unknown(xml, table, v, Some(&indices))?;
+                }
+                Ok(())
+            })?;
+            xml.create_element("InitialUnknowns")
+                .write_inner_content(|xml| outputs().try_for_each(|v| unknown(xml, table, v, None)))?;
+            Ok(())
+        })?;
+    Ok(())
+}
+
+fn unknown(
+    xml: &mut Xml,
+    table: &Table,
+    v: &Variable,
+    dependencies: Option<&[usize]>,
+) -> io::Result<()> {
+    let index = table.index(&v.name).unwrap_or_default().to_string();
+    let mut element = xml
+        .create_element("Unknown")
+        .with_attribute(("index", index.as_str()));
+    if let Some(dependencies) = dependencies {
+        let text: Vec<String> = dependencies.iter().map(usize::to_string).collect();
+        element = element.with_attribute(("dependencies", text.join(" ").as_str()));
+    }
+    element.write_empty()?;
+    Ok(())
+}
+
+/// Shortest text that reads back as the same double.
+fn number(value: f64) -> String {
+    format!("{value:?}")
+}

@@ -1,0 +1,78 @@
+//! Where files lie: `file:` URIs, and names relative to the FMU's resources.
+
+use std::path::{Path, PathBuf};
+
+/// The path in a `file:` URI (`file:/x`, `file:///x`, `file://localhost/x`, percent-encoded
+/// UTF-8, `file:///C:/x`); none if it is no such URI.
+pub fn path_from_uri(uri: &str) -> Option<PathBuf> {
+    let scheme = uri.get(..5)?;
+    if !scheme.eq_ignore_ascii_case("file:") {
+        return None;
+    }
+    let rest = &uri[5..];
+    let path = match rest.strip_prefix("//") {
+        // Behind two slashes comes the host, up to the path's own slash.
+        Some(authority) => &authority[authority.find('/')?..],
+        None => rest,
+    };
+    let path = percent_decoded(path)?;
+    let drive = path.as_bytes();
+    let has_drive = drive.len() > 2 && drive[1].is_ascii_alphabetic() && drive[2] == b':';
+    Some(PathBuf::from(if has_drive { &path[1..] } else { &path }))
+}
+
+/// The text with every %XX replaced by its byte; none if that is no UTF-8.
+fn percent_decoded(text: &str) -> Option<String> {
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text.as_bytes();
+    while let Some((first, tail)) = rest.split_first() {
+        let digit = |i: usize| tail.get(i).and_then(|b| char::from(*b).to_digit(16));
+        match (first, digit(0), digit(1)) {
+            (b'%', Some(high), Some(low)) => {
+                bytes.push((16 * high + low) as u8);
+                rest = &tail[2..];
+            }
+            _ => {
+                bytes.push(*first);
+                rest = tail;
+            }
+        }
+    }
+    String::from_utf8(bytes).ok()
+}
+
+/// The file behind a parameter: a `file:` URI or an absolute path as it is; else a name in
+/// `folder` of the resources if it is there, else one relative to the resources.
+pub fn resolve(resources: &Path, folder: &str, name: &str) -> PathBuf {
+    if let Some(path) = path_from_uri(name) {
+        return path;
+    }
+    let in_folder = resources.join(folder).join(name);
+    if in_folder.is_file() {
+        return in_folder;
+    }
+    resources.join(name) // `join` keeps an absolute name as it is
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_forms_of_file_uris() {
+        for (uri, path) in [
+            ("file:/a/b", "/a/b"),
+            ("file:///a/b", "/a/b"),
+            ("FILE:///a/b", "/a/b"),
+            ("file://localhost/a/b", "/a/b"),
+            ("file:///a%20b/%C3%A9", "/a b/\u{e9}"),
+            ("file:///a/100%", "/a/100%"),
+            ("file:///C:/a", "C:/a"),
+        ] {
+            assert_eq!(path_from_uri(uri), Some(PathBuf::from(path)), "{uri}");
+        }
+        for uri in ["", "/a/b", "http://x/y", "file://host-without-path", "file:///%FF"] {
+            assert_eq!(path_from_uri(uri), None, "{uri}");
+        }
+    }
+}

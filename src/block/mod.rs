@@ -1,0 +1,248 @@
+//! The rotor as a block of named variables: which variable feeds which quantity of the physics.
+//! Neutral of the FMI version.
+
+mod location;
+mod setup;
+mod values;
+pub mod variables;
+
+pub use location::path_from_uri;
+pub use setup::SetupError;
+pub use values::{Stage, ValueError, Values};
+
+use crate::rotor::{Operation, Performance, Rotor, SolveError, air::Air, geometry::Rotation};
+use core::f64::consts::{PI, SQRT_2};
+use nalgebra::{Matrix3, Vector3};
+use std::path::PathBuf;
+use thiserror::Error;
+use variables::{AirModel, Causality, REALS, integer, real};
+
+/// Why the outputs could not be computed; they keep their last values.
+#[derive(Debug, Error, Clone, PartialEq)]
+pub enum BlockError {
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    #[error("{0}; check the inputs: {1}")]
+    Unsolved(SolveError, String),
+    #[error("{name} would be {value}, which is not finite; check the inputs: {inputs}")]
+    NotFinite { name: &'static str, value: f64, inputs: String },
+}
+
+/// One rotor with the values of all of its variables.
+#[derive(Debug)]
+pub struct RotorBlock {
+    values: Values,
+    stage: Stage,
+    resources: PathBuf,
+    /// None until it is needed, and again when a parameter that shapes it has changed.
+    rotor: Option<Rotor>,
+    /// Whether the outputs belong to the present inputs and parameters.
+    current: bool,
+    /// What was read from which file since the last call of `take_notes`.
+    notes: Vec<String>,
+}
+
+impl RotorBlock {
+    /// A rotor with default values; `resources` is the folder of the FMU's resources.
+    pub fn new(resources: PathBuf) -> Self {
+        Self {
+            values: Values::default(),
+            stage: Stage::Configuring,
+            resources,
+            rotor: None,
+            current: false,
+            notes: Vec::new(),
+        }
+    }
+
+    /// Back to the state after `new`.
+    pub fn reset(&mut self) {
+        *self = Self::new(std::mem::take(&mut self.resources));
+    }
+
+    pub fn values(&self) -> &Values {
+        &self.values
+    }
+
+    /// Sets Real variables: all, or none if one is refused.
+    pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), ValueError> {
+        self.values.set_reals(self.stage, references, values)?;
+        let shapes = |r: &u32| {
+            let variable = &REALS[*r as usize];
+            variable.causality == Causality::Parameter && !variable.tunable
+        };
+        let shape_changes = self.stage == Stage::Configuring && references.iter().any(shapes);
+        self.invalidate(shape_changes);
+        Ok(())
+    }
+
+    /// Sets Integer and Enumeration variables: all, or none if one is refused.
+    pub fn set_integers(&mut self, references: &[u32], values: &[i32]) -> Result<(), ValueError> {
+        self.values.set_integers(self.stage, references, values)?;
+        self.invalidate(self.stage == Stage::Configuring);
+        Ok(())
+    }
+
+    /// Sets String variables: all, or none if one is refused.
+    pub fn set_strings(&mut self, references: &[u32], values: &[&str]) -> Result<(), ValueError> {
+        self.values.set_strings(self.stage, references, values)?;
+        self.invalidate(self.stage == Stage::Configuring);
+        Ok(())
+    }
+
+    fn invalidate(&mut self, shape_changes: bool) {
+        self.current = false;
+        if shape_changes {
+            self.rotor = None;
+        }
+    }
+
+    /// Ends the time in which fixed parameters may change.
+    pub fn start(&mut self) -> Result<(), BlockError> {
+        self.update()?;
+        self.stage = Stage::Running;
+        Ok(())
+    }
+
+    /// What was read from which file since the last call.
+    pub fn take_notes(&mut self) -> Vec<String> {
+        std::mem::take(&mut self.notes)
+    }
+
+    /// Makes the outputs those of the present inputs and parameters.
+    ///
+    /// The models of axial flight have no memory, so that this is also a step in time.
+    pub fn update(&mut self) -> Result<(), BlockError> {
+        if self.current {
+            return Ok(());
+        }
+        if self.rotor.is_none() {
+            let (rotor, notes) = setup::rotor(&self.values, &self.resources)?;
+            self.rotor = Some(rotor);
+            self.notes.extend(notes);
+        }
+        let Some(rotor) = self.rotor.as_mut() else {
+            return Ok(()); // made above
+        };
+        let shaft = Shaft::new(&self.values.reals);
+        let operation = Operation {
+            collective: self.values.reals[real::COLLECTIVE],
+            speed: self.values.reals[real::RPM] * PI / 30.0,
+            climb: shaft.axis().dot(&shaft.airspeed),
+            air: air(&self.values)?,
+        };
+        let performance = rotor
+            .axial(&operation)
+            .map_err(|error| BlockError::Unsolved(error, inputs(&self.values)))?;
+        let mut reals = self.values.reals;
+        write_outputs(&mut reals, rotor, &operation, &performance, &shaft);
+        for (variable, value) in REALS.iter().zip(reals) {
+            if variable.causality == Causality::Output && !value.is_finite() {
+                let inputs = inputs(&self.values);
+                return Err(BlockError::NotFinite { name: variable.name, value, inputs });
+            }
+        }
+        self.values.reals = reals;
+        self.current = true;
+        Ok(())
+    }
+}
+
+/// The hub frame against the ground, and the hub's velocity through the air in the ground frame.
+struct Shaft {
+    hub_to_ground: Matrix3<f64>,
+    airspeed: Vector3<f64>,
+}
+
+impl Shaft {
+    /// The hub frame is the ground frame (x forward, y left, z up) turned by `tilt` about +y, so
+    /// that positive tilt leans the shaft forward.
+    fn new(reals: &[f64]) -> Self {
+        let (sin, cos) = (libm::sin(reals[real::TILT]), libm::cos(reals[real::TILT]));
+        let vector = |x: usize, y: usize, z: usize| Vector3::new(reals[x], reals[y], reals[z]);
+        let velocity = vector(real::VELOCITY_1, real::VELOCITY_2, real::VELOCITY_3);
+        let wind = vector(real::WIND_1, real::WIND_2, real::WIND_3);
+        Self {
+            hub_to_ground: Matrix3::new(cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos),
+            airspeed: velocity - wind,
+        }
+    }
+
+    fn axis(&self) -> Vector3<f64> {
+        self.hub_to_ground.column(2).into()
+    }
+}
+
+fn air(values: &Values) -> Result<Air, SetupError> {
+    let reals = &values.reals;
+    Ok(match setup::choice(values, integer::AIR__MODEL, AirModel::from_integer)? {
+        AirModel::Isa => Air::standard(reals[real::ALTITUDE]),
+        AirModel::Constant => Air::new(reals[real::AIR__DENSITY], reals[real::AIR__TEMPERATURE]),
+    })
+}
+
+/// Writes the outputs among the Real variables.
+fn write_outputs(
+    reals: &mut [f64],
+    rotor: &Rotor,
+    operation: &Operation,
+    performance: &Performance,
+    shaft: &Shaft,
+) {
+    let Performance { thrust, torque, .. } = *performance;
+    let geometry = rotor.geometry();
+    // The rotor's drag turns the hub against the turning sense.
+    let turning = match geometry.rotation {
+        Rotation::CounterClockwise => 1.0,
+        Rotation::Clockwise => -1.0,
+    };
+    let hub_force = Vector3::new(0.0, 0.0, thrust);
+    let hub_moment = Vector3::new(0.0, 0.0, -turning * torque);
+    let force = shaft.hub_to_ground * hub_force;
+    let moment = shaft.hub_to_ground * hub_moment;
+    for (places, vector) in [
+        ([real::FORCE_1, real::FORCE_2, real::FORCE_3], force),
+        ([real::MOMENT_1, real::MOMENT_2, real::MOMENT_3], moment),
+        ([real::HUB_FORCE_1, real::HUB_FORCE_2, real::HUB_FORCE_3], hub_force),
+        ([real::HUB_MOMENT_1, real::HUB_MOMENT_2, real::HUB_MOMENT_3], hub_moment),
+    ] {
+        for (place, component) in places.into_iter().zip(vector.iter()) {
+            reals[place] = *component;
+        }
+    }
+
+    let air = &operation.air;
+    let radius = geometry.radius;
+    let tip_speed = operation.speed * radius;
+    let reference_force = air.density * PI * radius * radius * tip_speed * tip_speed;
+    let per = |quantity: f64, reference: f64| {
+        if reference > 0.0 { quantity / reference } else { 0.0 }
+    };
+    let thrust_coefficient = per(thrust, reference_force);
+    let torque_coefficient = per(torque, reference_force * radius);
+    reals[real::THRUST] = thrust;
+    reals[real::TORQUE] = torque;
+    reals[real::POWER] = torque * operation.speed;
+    reals[real::THRUST_COEFFICIENT] = thrust_coefficient;
+    reals[real::TORQUE_COEFFICIENT] = torque_coefficient;
+    reals[real::POWER_COEFFICIENT] = torque_coefficient; // CP = CQ in these units
+    reals[real::FIGURE_OF_MERIT] = if thrust_coefficient > 0.0 && torque_coefficient > 0.0 {
+        thrust_coefficient * libm::sqrt(thrust_coefficient) / (SQRT_2 * torque_coefficient)
+    } else {
+        0.0
+    };
+    reals[real::INDUCED_VELOCITY] = performance.induced_velocity;
+    reals[real::INFLOW_RATIO] = per(operation.climb + performance.induced_velocity, tip_speed);
+    reals[real::STALLED_RADIUS] = performance.stalled_radius;
+    reals[real::STALLED_FRACTION] = performance.stalled_fraction;
+    reals[real::TIP_MACH] = tip_speed / air.speed_of_sound;
+    reals[real::TIP_REYNOLDS] = air.density * tip_speed * geometry.tip_chord / air.viscosity;
+    reals[real::AIR_DENSITY] = air.density;
+}
+
+/// The inputs as a text for errors.
+fn inputs(values: &Values) -> String {
+    let inputs = REALS.iter().zip(values.reals).filter(|(v, _)| v.causality == Causality::Input);
+    let texts = inputs.map(|(v, value)| format!("{} = {value} {}", v.name, v.unit));
+    texts.collect::<Vec<_>>().join(", ")
+}

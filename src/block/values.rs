@@ -1,0 +1,253 @@
+//! The values of all variables, and the rules under which they may be set.
+
+use super::variables::{Causality, INTEGERS, REALS, STRINGS, Variable};
+use std::fmt::Display;
+use thiserror::Error;
+
+/// Why a value was not read or set; nothing has changed then.
+#[derive(Debug, Error, Clone, PartialEq)]
+pub enum ValueError {
+    #[error(
+        "value reference {reference} is no {kind} variable of this FMU (they go from 0 to {last}); take it from modelDescription.xml"
+    )]
+    Unknown { reference: u32, kind: &'static str, last: usize },
+    #[error("{name} = {value} is not a finite number; set a finite value (it keeps {kept})")]
+    NotFinite { name: &'static str, value: f64, kept: f64 },
+    #[error("{name} = {value} is out of range; set a value from {min} to {max} (it keeps {kept})")]
+    OutOfRange { name: &'static str, value: String, min: String, max: String, kept: String },
+    #[error("{name} = {value} is no choice; set one of {choices} (it keeps {kept})")]
+    NoChoice { name: &'static str, value: i32, choices: String, kept: i32 },
+    #[error("{name} is an output, which the rotor computes; it cannot be set")]
+    Output { name: &'static str },
+    #[error(
+        "{name} is a fixed parameter and keeps {kept} once the simulation runs; set it before initialisation ends, or reset the instance"
+    )]
+    Fixed { name: &'static str, kept: String },
+}
+
+/// Whether parameters that are not tunable may still change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Stage {
+    Configuring,
+    Running,
+}
+
+/// The values by value reference.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Values {
+    pub reals: [f64; REALS.len()],
+    pub integers: [i32; INTEGERS.len()],
+    pub strings: [String; STRINGS.len()],
+}
+
+impl Default for Values {
+    fn default() -> Self {
+        Self {
+            reals: REALS.map(|v| v.start),
+            integers: INTEGERS.map(|v| v.start),
+            strings: STRINGS.map(|v| v.start.to_owned()),
+        }
+    }
+}
+
+/// The row and place behind a value reference.
+fn find<T>(
+    table: &'static [Variable<T>],
+    kind: &'static str,
+    reference: u32,
+) -> Result<(usize, &'static Variable<T>), ValueError> {
+    let place = reference as usize;
+    let row = table.get(place);
+    row.map(|variable| (place, variable))
+        .ok_or(ValueError::Unknown { reference, kind, last: table.len().saturating_sub(1) })
+}
+
+/// Reads the values behind `references` into `out`.
+fn read<T, V: Clone>(
+    table: &'static [Variable<T>],
+    kind: &'static str,
+    values: &[V],
+    references: &[u32],
+    out: &mut [V],
+) -> Result<(), ValueError> {
+    for (reference, slot) in references.iter().zip(out) {
+        let (place, _) = find(table, kind, *reference)?;
+        slot.clone_from(&values[place]);
+    }
+    Ok(())
+}
+
+/// What the causality and the stage say about setting a variable to a value that differs, or not,
+/// from the one it has.
+fn may_set<T>(
+    variable: &Variable<T>,
+    stage: Stage,
+    differs: bool,
+    kept: &impl Display,
+) -> Result<(), ValueError> {
+    let name = variable.name;
+    match variable.causality {
+        Causality::Output => Err(ValueError::Output { name }),
+        Causality::Parameter if stage == Stage::Running && !variable.tunable && differs => {
+            Err(ValueError::Fixed { name, kept: kept.to_string() })
+        }
+        _ => Ok(()),
+    }
+}
+
+impl Values {
+    pub fn read_reals(&self, references: &[u32], out: &mut [f64]) -> Result<(), ValueError> {
+        read(&REALS, "Real", &self.reals, references, out)
+    }
+
+    pub fn read_integers(&self, references: &[u32], out: &mut [i32]) -> Result<(), ValueError> {
+        read(&INTEGERS, "Integer or Enumeration", &self.integers, references, out)
+    }
+
+    /// Place of a String variable.
+    pub fn string_place(reference: u32) -> Result<usize, ValueError> {
+        Ok(find(&STRINGS, "String", reference)?.0)
+    }
+
+    /// Sets all of the values or, if one is refused, none.
+    pub fn set_reals(
+        &mut self,
+        stage: Stage,
+        references: &[u32],
+        values: &[f64],
+    ) -> Result<(), ValueError> {
+        for (reference, value) in references.iter().zip(values) {
+            let (place, variable) = find(&REALS, "Real", *reference)?;
+            let kept = self.reals[place];
+            may_set(variable, stage, *value != kept, &kept)?;
+            let name = variable.name;
+            if !value.is_finite() {
+                return Err(ValueError::NotFinite { name, value: *value, kept });
+            }
+            if *value < variable.min || *value > variable.max {
+                let unit = |x: f64| format!("{x} {}", variable.unit).trim_end().to_owned();
+                return Err(ValueError::OutOfRange {
+                    name,
+                    value: unit(*value),
+                    min: variable.min.to_string(),
+                    max: unit(variable.max),
+                    kept: unit(kept),
+                });
+            }
+        }
+        for (reference, value) in references.iter().zip(values) {
+            self.reals[*reference as usize] = *value;
+        }
+        Ok(())
+    }
+
+    /// Sets all of the values or, if one is refused, none.
+    pub fn set_integers(
+        &mut self,
+        stage: Stage,
+        references: &[u32],
+        values: &[i32],
+    ) -> Result<(), ValueError> {
+        for (reference, value) in references.iter().zip(values) {
+            let (place, variable) = find(&INTEGERS, "Integer or Enumeration", *reference)?;
+            let kept = self.integers[place];
+            may_set(variable, stage, *value != kept, &kept)?;
+            let name = variable.name;
+            if (variable.min..=variable.max).contains(value) {
+                continue;
+            }
+            if variable.choices.is_empty() {
+                return Err(ValueError::OutOfRange {
+                    name,
+                    value: value.to_string(),
+                    min: variable.min.to_string(),
+                    max: variable.max.to_string(),
+                    kept: kept.to_string(),
+                });
+            }
+            let choices = variable.choices.iter().enumerate();
+            let choices: Vec<String> = choices.map(|(i, c)| format!("{} ({c})", i + 1)).collect();
+            return Err(ValueError::NoChoice {
+                name,
+                value: *value,
+                choices: choices.join(", "),
+                kept,
+            });
+        }
+        for (reference, value) in references.iter().zip(values) {
+            self.integers[*reference as usize] = *value;
+        }
+        Ok(())
+    }
+
+    /// Sets all of the values or, if one is refused, none.
+    pub fn set_strings(
+        &mut self,
+        stage: Stage,
+        references: &[u32],
+        values: &[&str],
+    ) -> Result<(), ValueError> {
+        for (reference, value) in references.iter().zip(values) {
+            let (place, variable) = find(&STRINGS, "String", *reference)?;
+            let kept = &self.strings[place];
+            may_set(variable, stage, value != kept, &format!("{kept:?}"))?;
+        }
+        for (reference, value) in references.iter().zip(values) {
+            (*value).clone_into(&mut self.strings[*reference as usize]);
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::variables::{integer, real, string};
+    use super::*;
+
+    #[test]
+    fn defaults_lie_in_their_own_ranges() {
+        let defaults = Values::default();
+        for (v, value) in REALS.iter().zip(defaults.reals) {
+            assert!(v.causality == Causality::Output || (v.min..=v.max).contains(&value), "{}", v.name);
+        }
+        for (v, value) in INTEGERS.iter().zip(defaults.integers) {
+            assert!((v.min..=v.max).contains(&value), "{}", v.name);
+        }
+    }
+
+    #[test]
+    fn a_refused_value_changes_nothing_and_says_what_is_right() {
+        let mut values = Values::default();
+        let before = values.clone();
+        let refs = [real::COLLECTIVE as u32, real::GEOMETRY__RADIUS as u32];
+        for (bad, part) in [
+            (-1.0, "geometry.radius = -1 m is out of range; set a value from 0.001 to 1000 m (it keeps 0.762 m)"),
+            (f64::NAN, "geometry.radius = NaN is not a finite number"),
+            (f64::INFINITY, "geometry.radius = inf is not a finite number"),
+        ] {
+            let error = values.set_reals(Stage::Configuring, &refs, &[0.1, bad]).unwrap_err();
+            assert!(error.to_string().contains(part), "{error}");
+            assert_eq!(values, before);
+        }
+        let error = values.set_integers(Stage::Configuring, &[integer::MODEL__INFLOW as u32], &[9]);
+        let error = error.unwrap_err().to_string();
+        assert!(error.contains("model.inflow = 9 is no choice; set one of 1 (annulusClosedForm), 2 (annulus)"), "{error}");
+        let error = values.set_reals(Stage::Configuring, &[9999], &[0.0]).unwrap_err();
+        assert!(error.to_string().contains("value reference 9999 is no Real variable"), "{error}");
+    }
+
+    #[test]
+    fn fixed_parameters_keep_their_values_while_running_and_outputs_always() {
+        let mut values = Values::default();
+        let set = |v: &mut Values, r: usize, x| v.set_reals(Stage::Running, &[r as u32], &[x]);
+        assert!(set(&mut values, real::COLLECTIVE, 0.2).is_ok());
+        assert!(set(&mut values, real::AIR__DENSITY, 1.0).is_ok(), "tunable");
+        assert!(set(&mut values, real::GEOMETRY__RADIUS, 0.762).is_ok(), "its own value");
+        let error = set(&mut values, real::GEOMETRY__RADIUS, 0.8).unwrap_err();
+        assert!(error.to_string().contains("geometry.radius is a fixed parameter and keeps 0.762"));
+        let error = set(&mut values, real::THRUST, 1.0).unwrap_err();
+        assert_eq!(error, ValueError::Output { name: "thrust" });
+        let error = values.set_strings(Stage::Running, &[string::AIRFOIL__FILE as u32], &["x"]);
+        assert!(error.unwrap_err().to_string().contains("airfoil.file is a fixed parameter"));
+    }
+}

@@ -1,0 +1,30 @@
+//! The table of variables as the build made it from modelDescription/variables.toml: names,
+//! defaults, ranges and value references. Neutral of the FMI version.
+
+/// What a variable is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Causality {
+    Input,
+    Output,
+    Parameter,
+}
+
+/// One row of the table; `T` is the base type of its value.
+#[derive(Debug, Clone, Copy)]
+pub struct Variable<T: 'static> {
+    pub name: &'static str,
+    pub causality: Causality,
+    /// Whether a parameter may change while the simulation runs.
+    pub tunable: bool,
+    /// Empty for what is not a Real.
+    pub unit: &'static str,
+    /// Value before anything is set.
+    pub start: T,
+    /// Smallest and largest value that is accepted (not used for strings).
+    pub min: T,
+    pub max: T,
+    /// Names of an enumeration's values, which count from 1.
+    pub choices: &'static [&'static str],
+}
+
+include!(concat!(env!("OUT_DIR"), "/variables.rs"));

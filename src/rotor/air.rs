@@ -1,0 +1,81 @@
+//! Air: the standard atmosphere, or given values; viscosity and speed of sound.
+
+/// Specific gas constant of air, J/(kg K), and ratio of specific heats (ISO 2533:1975).
+const GAS_CONSTANT: f64 = 287.052_87;
+const HEAT_RATIO: f64 = 1.4;
+
+/// The state of the air around the rotor. SI units.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Air {
+    /// Density, kg/m3.
+    pub density: f64,
+    /// Speed of sound, m/s.
+    pub speed_of_sound: f64,
+    /// Dynamic viscosity, Pa s.
+    pub viscosity: f64,
+}
+
+impl Air {
+    /// Air of a given density (kg/m3, > 0) and temperature (K, > 0).
+    ///
+    /// Speed of sound of the ideal gas; viscosity by Sutherland's law with the constants of
+    /// ISO 2533:1975, eq. (22): mu = 1.458e-6 T^1.5/(T + 110.4).
+    pub fn new(density: f64, temperature: f64) -> Self {
+        Self {
+            density,
+            speed_of_sound: libm::sqrt(HEAT_RATIO * GAS_CONSTANT * temperature),
+            viscosity: 1.458e-6 * temperature * libm::sqrt(temperature) / (temperature + 110.4),
+        }
+    }
+
+    /// International Standard Atmosphere (ISO 2533:1975) at a geometric altitude above mean sea
+    /// level, m, from -2,000 to 20,000: the layer of constant lapse rate 6.5 K/km up to 11 km of
+    /// geopotential altitude, above it the layer of constant temperature.
+    pub fn standard(altitude: f64) -> Self {
+        const EARTH_RADIUS: f64 = 6_356_766.0;
+        const GRAVITY: f64 = 9.806_65;
+        const SEA_LEVEL_TEMPERATURE: f64 = 288.15;
+        const SEA_LEVEL_PRESSURE: f64 = 101_325.0;
+        const LAPSE_RATE: f64 = 0.0065;
+        const TROPOPAUSE: f64 = 11_000.0;
+
+        let geopotential = EARTH_RADIUS * altitude / (EARTH_RADIUS + altitude);
+        let below = geopotential.min(TROPOPAUSE);
+        let temperature = SEA_LEVEL_TEMPERATURE - LAPSE_RATE * below;
+        let mut pressure = SEA_LEVEL_PRESSURE
+            * libm::pow(
+                temperature / SEA_LEVEL_TEMPERATURE,
+                GRAVITY / (GAS_CONSTANT * LAPSE_RATE),
+            );
+        if geopotential > TROPOPAUSE {
+            let scale_height = GAS_CONSTANT * temperature / GRAVITY;
+            pressure *= libm::exp((TROPOPAUSE - geopotential) / scale_height);
+        }
+        Self::new(pressure / (GAS_CONSTANT * temperature), temperature)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// ISO 2533:1975, table of the standard atmosphere by geopotential altitude.
+    #[test]
+    fn standard_atmosphere_matches_the_published_table() {
+        for (geopotential, density, speed_of_sound) in [
+            (-2000.0, 1.4782, 347.89),
+            (0.0, 1.2250, 340.29),
+            (5000.0, 0.736_12, 320.53),
+            (11_000.0, 0.36392, 295.07),
+            (15_000.0, 0.19367, 295.07),
+            (20_000.0, 0.088_035, 295.07),
+        ] {
+            let geometric = 6_356_766.0 * geopotential / (6_356_766.0 - geopotential);
+            let air = Air::standard(geometric);
+            assert!((air.density / density - 1.0).abs() < 1e-4, "{geopotential} m: {air:?}");
+            assert!((air.speed_of_sound - speed_of_sound).abs() < 0.01, "{geopotential} m: {air:?}");
+        }
+        // Table value of the viscosity at sea level.
+        assert!((Air::standard(0.0).viscosity / 1.7894e-5 - 1.0).abs() < 1e-4);
+    }
+}

@@ -1,0 +1,152 @@
+//! Section data: lift and drag coefficients over the full circle of angles of attack, for one or
+//! more Reynolds or Mach numbers, read from files.
+
+mod c81;
+mod polar;
+mod table;
+
+pub use table::{Axis, Curve, Table};
+
+use super::{compressibility::Compressibility, scalar::Scalar};
+use core::f64::consts::PI;
+use std::{fs, path::Path};
+use thiserror::Error;
+
+/// Reynolds numbers below this count as this in the drag correction, which was made for
+/// boundary layers, not for creeping flow.
+const LOWEST_CORRECTED_REYNOLDS: f64 = 1e4;
+
+/// What is wrong with an airfoil file, and where.
+#[derive(Debug, Error, Clone, PartialEq)]
+pub enum AirfoilError {
+    #[error("airfoil file {file}: cannot be read ({reason}); give a file that exists and is text")]
+    Unreadable { file: String, reason: String },
+    #[error("airfoil file {file}, line {line}: {problem}")]
+    Malformed { file: String, line: usize, problem: String },
+    #[error("airfoil file {file}, line {line}, column {column}: {problem}")]
+    MalformedField { file: String, line: usize, column: usize, problem: String },
+}
+
+/// Where a section's lift comes from.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Lift {
+    /// The airfoil's table.
+    Table,
+    /// Flat plate: cl = 2 pi sin(alpha) (thesis eq. 49).
+    TwoPi,
+}
+
+/// How a section's coefficients are made from its table.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SectionModel {
+    pub lift: Lift,
+    pub compressibility: Compressibility,
+    /// Exponent n, 0 to 0.5, of the drag correction outside the table's Reynolds numbers.
+    pub drag_reynolds_exponent: f64,
+}
+
+/// The flow at a section: Reynolds number of the chord and Mach number, both >= 0.
+#[derive(Debug, Clone, Copy)]
+pub struct Similarity<S> {
+    pub reynolds: S,
+    pub mach: S,
+}
+
+/// An airfoil as read from a file. Angles in rad, from -pi to pi.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Airfoil {
+    name: String,
+    lift: Table,
+    drag: Table,
+}
+
+impl Airfoil {
+    /// Reads a file: polars by Reynolds number if its name ends in `.polar`, else C81.
+    pub fn read(path: &Path) -> Result<Self, AirfoilError> {
+        let file = path.display().to_string();
+        let text = fs::read(path)
+            .map_err(|e| e.to_string())
+            .and_then(|bytes| String::from_utf8(bytes).map_err(|e| e.to_string()))
+            .map_err(|reason| AirfoilError::Unreadable { file: file.clone(), reason })?;
+        if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("polar")) {
+            polar::parse(&text, &file)
+        } else {
+            c81::parse(&text, &file)
+        }
+    }
+
+    /// What the file calls the section.
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// Lift coefficient at angle of attack `alpha` (rad, any value).
+    pub fn lift_coefficient<S: Scalar>(
+        &self,
+        model: &SectionModel,
+        alpha: S,
+        flow: Similarity<S>,
+    ) -> S {
+        match model.lift {
+            Lift::TwoPi => model.compressibility.correct(alpha.sin() * (2.0 * PI), flow.mach),
+            Lift::Table => {
+                let lift = self.lift.value(alpha, flow);
+                if self.lift.resolves_mach() {
+                    return lift; // the file's Mach numbers take the place of a rule
+                }
+                model.compressibility.correct(lift, flow.mach)
+            }
+        }
+    }
+
+    /// Drag coefficient at angle of attack `alpha` (rad, any value).
+    ///
+    /// Outside the table's Reynolds numbers the nearest one's drag is scaled with
+    /// (Re_table/Re)^n: Yamauchi & Johnson 1983, "Trends of Reynolds Number Effects on
+    /// Two-Dimensional Airfoil Characteristics for Helicopter Rotor Analyses", NASA TM-84363,
+    /// n = 0.2 for a turbulent boundary layer. Tables by Mach number know no Reynolds number and
+    /// stay as they are.
+    pub fn drag_coefficient<S: Scalar>(
+        &self,
+        model: &SectionModel,
+        alpha: S,
+        flow: Similarity<S>,
+    ) -> S {
+        let drag = self.drag.value(alpha, flow);
+        let Some((lowest, highest)) = self.drag.reynolds_range() else {
+            return drag;
+        };
+        let reynolds = flow.reynolds.at_least(LOWEST_CORRECTED_REYNOLDS);
+        let nearest = reynolds.value().clamp(lowest, highest);
+        if model.drag_reynolds_exponent == 0.0 || nearest == reynolds.value() {
+            return drag;
+        }
+        let ratio = S::constant(nearest) / reynolds;
+        drag * (ratio.ln() * model.drag_reynolds_exponent).exp()
+    }
+
+    /// Slope of the line through the lift at -3 and +3 deg of angle of attack, 1/rad, and
+    /// the angle of zero lift on that line, rad: thesis section 3.5.1, line A.
+    pub fn lift_line(&self, model: &SectionModel, flow: Similarity<f64>) -> (f64, f64) {
+        if model.lift == Lift::TwoPi {
+            return (2.0 * PI, 0.0);
+        }
+        let edge = 3.0_f64.to_radians();
+        let (low, high) = (self.lift.value(-edge, flow), self.lift.value(edge, flow));
+        let slope = (high - low) / (2.0 * edge);
+        if slope == 0.0 {
+            return (0.0, 0.0);
+        }
+        (slope, -0.5 * (high + low) / slope)
+    }
+
+    /// Whether the table's lift already depends on Mach number.
+    pub fn resolves_mach(&self) -> bool {
+        self.lift.resolves_mach()
+    }
+
+    /// Angles of attack (negative, positive; rad) at which the lift reaches its first peak.
+    pub fn stall_angles(&self, flow: Similarity<f64>) -> (f64, f64) {
+        self.lift.stall_angles(flow)
+    }
+}

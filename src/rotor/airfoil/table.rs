@@ -1,0 +1,208 @@
+//! One coefficient over angle of attack and, in layers, over Reynolds or Mach number.
+
+use super::Similarity;
+use crate::rotor::scalar::Scalar;
+use core::f64::consts::PI;
+
+/// A coefficient over angle of attack: linear between its points, exact at them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// rad, strictly increasing from -pi to pi.
+    alpha: Vec<f64>,
+    value: Vec<f64>,
+    /// Angles of the first lift peak to either side of zero; rad.
+    stall: (f64, f64),
+}
+
+/// What the layers of a table are numbered by.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Axis {
+    Reynolds,
+    Mach,
+}
+
+/// Curves for one or more Reynolds or Mach numbers.
+///
+/// Between layers the value is linear in ln Re or in Mach number; outside, the nearest layer holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Table {
+    axis: Axis,
+    /// ln Re or Mach number of each layer, strictly increasing.
+    position: Vec<f64>,
+    curve: Vec<Curve>,
+}
+
+impl Curve {
+    /// From points in degrees, -180 to 180, which the loaders have checked.
+    pub fn from_degrees(points: &[(f64, f64)]) -> Self {
+        let alpha: Vec<f64> = points
+            .iter()
+            .map(|p| if p.0.abs() == 180.0 { PI.copysign(p.0) } else { p.0.to_radians() })
+            .collect();
+        let value: Vec<f64> = points.iter().map(|p| p.1).collect();
+        let stall = (
+            -first_peak(points.iter().rev().map(|p| (-p.0, -p.1))).to_radians(),
+            first_peak(points.iter().copied()).to_radians(),
+        );
+        Self { alpha, value, stall }
+    }
+
+    fn value<S: Scalar>(&self, alpha: S) -> S {
+        let last = self.alpha.len() - 1;
+        let upper = self.alpha.partition_point(|a| *a <= alpha.value()).clamp(1, last);
+        let (a0, a1) = (self.alpha[upper - 1], self.alpha[upper]);
+        let (v0, v1) = (self.value[upper - 1], self.value[upper]);
+        if alpha.value() == a0 {
+            // The point itself, with the slope of the interval above it.
+            return (alpha - a0) * ((v1 - v0) / (a1 - a0)) + v0;
+        }
+        (alpha - a1) * ((v1 - v0) / (a1 - a0)) + v1
+    }
+}
+
+/// Angle (deg) of the first local maximum of lift at positive angles up to 30 deg; of the largest
+/// value there if the lift has no local maximum.
+fn first_peak(points: impl Iterator<Item = (f64, f64)>) -> f64 {
+    let mut best: (f64, f64) = (30.0, 0.0);
+    for (alpha, lift) in points.filter(|p| p.0 > 0.0 && p.0 <= 30.0) {
+        if lift > best.1 {
+            best = (alpha, lift);
+        } else if best.1 > 0.0 {
+            break;
+        }
+    }
+    best.0
+}
+
+impl Table {
+    /// Layers as (Reynolds or Mach number, curve), at least one, numbers strictly increasing.
+    pub fn new(axis: Axis, layers: Vec<(f64, Curve)>) -> Self {
+        let (numbers, curve): (Vec<f64>, Vec<Curve>) = layers.into_iter().unzip();
+        let position = numbers
+            .into_iter()
+            .map(|n| if axis == Axis::Reynolds { Scalar::ln(n) } else { n })
+            .collect();
+        Self { axis, position, curve }
+    }
+
+    pub fn resolves_mach(&self) -> bool {
+        self.axis == Axis::Mach && self.curve.len() > 1
+    }
+
+    /// Lowest and highest Reynolds number, if the layers are numbered by it.
+    pub fn reynolds_range(&self) -> Option<(f64, f64)> {
+        let ends = self.position.first().zip(self.position.last());
+        ends.filter(|_| self.axis == Axis::Reynolds)
+            .map(|(low, high)| (Scalar::exp(*low), Scalar::exp(*high)))
+    }
+
+    pub fn value<S: Scalar>(&self, alpha: S, flow: Similarity<S>) -> S {
+        let alpha = wrap(alpha);
+        let (layer, weight) = self.layer(flow);
+        let Some(weight) = weight else {
+            return self.curve[layer].value(alpha);
+        };
+        let lower = self.curve[layer].value(alpha);
+        lower + weight * (self.curve[layer + 1].value(alpha) - lower)
+    }
+
+    pub fn stall_angles(&self, flow: Similarity<f64>) -> (f64, f64) {
+        let (layer, weight) = self.layer(flow);
+        let lower = self.curve[layer].stall;
+        let Some(weight) = weight else {
+            return lower;
+        };
+        let upper = self.curve[layer + 1].stall;
+        (
+            lower.0 + weight * (upper.0 - lower.0),
+            lower.1 + weight * (upper.1 - lower.1),
+        )
+    }
+
+    /// The layer at or below the flow's number, and how far (0 to 1) the number lies towards the
+    /// next one; no weight where a single layer holds.
+    fn layer<S: Scalar>(&self, flow: Similarity<S>) -> (usize, Option<S>) {
+        let last = self.position.len() - 1;
+        if last == 0 {
+            return (0, None);
+        }
+        let number = match self.axis {
+            Axis::Reynolds => flow.reynolds.at_least(1.0).ln(),
+            Axis::Mach => flow.mach,
+        };
+        if number.value() <= self.position[0] {
+            return (0, None);
+        }
+        if number.value() >= self.position[last] {
+            return (last, None);
+        }
+        let upper = self.position.partition_point(|p| *p <= number.value());
+        let (p0, p1) = (self.position[upper - 1], self.position[upper]);
+        (upper - 1, Some((number - p0) / (p1 - p0)))
+    }
+}
+
+/// The same angle between -pi and pi.
+fn wrap<S: Scalar>(alpha: S) -> S {
+    let value = alpha.value();
+    if (-PI..=PI).contains(&value) {
+        return alpha;
+    }
+    let turns = libm::round(value / (2.0 * PI));
+    (alpha - turns * 2.0 * PI).at_least(-PI).at_most(PI)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table() -> Table {
+        let curve = |scale: f64| {
+            Curve::from_degrees(&[
+                (-180.0, 0.0),
+                (-10.0, -scale),
+                (0.0, 0.0),
+                (10.0, scale),
+                (14.0, 0.9 * scale),
+                (20.0, 1.5 * scale),
+                (180.0, 0.0),
+            ])
+        };
+        Table::new(Axis::Reynolds, vec![(1e5, curve(1.0)), (1e6, curve(2.0))])
+    }
+
+    fn at(alpha_deg: f64, reynolds: f64) -> f64 {
+        let flow = Similarity { reynolds, mach: 0.0 };
+        table().value(alpha_deg.to_radians(), flow)
+    }
+
+    #[test]
+    fn points_are_exact_and_between_them_the_value_is_linear() {
+        assert_eq!(at(10.0, 1e5), 1.0);
+        assert_eq!(at(-10.0, 1e5), -1.0);
+        assert_eq!(at(10.0, 1e6), 2.0);
+        assert!((at(5.0, 1e5) - 0.5).abs() < 1e-15);
+        assert!((at(10.0, libm::sqrt(1e11)) - 1.5).abs() < 1e-14, "half way in ln Re");
+    }
+
+    #[test]
+    fn outside_the_reynolds_range_the_nearest_layer_holds() {
+        assert_eq!(at(10.0, 0.0), 1.0);
+        assert_eq!(at(10.0, 1e9), 2.0);
+    }
+
+    #[test]
+    fn angles_repeat_after_a_turn() {
+        assert!((at(370.0, 1e5) - 1.0).abs() < 1e-12);
+        assert!((at(-350.0, 1e5) - 1.0).abs() < 1e-12);
+        assert!(at(180.0, 1e5).abs() < 1e-15 && at(540.0, 1e5).abs() < 1e-12);
+    }
+
+    #[test]
+    fn stall_is_the_first_peak_of_lift() {
+        let flow = Similarity { reynolds: 1e5, mach: 0.0 };
+        let (negative, positive) = table().stall_angles(flow);
+        assert!((positive.to_degrees() - 10.0).abs() < 1e-12);
+        assert!((negative.to_degrees() + 10.0).abs() < 1e-12);
+    }
+}

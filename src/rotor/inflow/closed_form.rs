@@ -1,0 +1,166 @@
+//! The closed form of blade-element momentum theory for small angles and a linear lift slope:
+//! Knight & Hefner 1937 (NACA TN 626), Leishman 2006 eq. (3.51); the thesis' eq. (94),
+//!
+//! ```text
+//! lambda = sqrt((A - lambda_c/2)^2 + 2 A theta r) - (A - lambda_c/2),   A = sigma cl_alpha/16
+//! ```
+//!
+//! with dCT = sigma cl_alpha/2 (theta r^2 - lambda r) dr, eq. (93), and dCP = sigma/2 (phi cl +
+//! cd) r^3 dr, eq. (91), phi = lambda/r. Everything is multiplied by the tip speed here, so that
+//! a rotor at rest is no special case.
+//!
+//! Negative pitch. The thesis (section 3.2) takes the magnitude of theta under the root and gives
+//! the root the sign of theta. Taken to the letter, lambda would jump by 2 A where theta changes
+//! its sign, and the thrust would have the wrong sign; mirroring the rotor in its disc shows that
+//! A changes its sign too. So we mirror the whole equation: lambda(-theta, -lambda_c) =
+//! -lambda(theta, lambda_c).
+//!
+//! Fast descent. Where the air passes upwards through the disc (lambda < 0), the mass flow is
+//! -lambda and the same derivation gives lambda = (A + lambda_c/2) - sqrt((A + lambda_c/2)^2 -
+//! 2 A theta r), the windmill, which is taken where it exists.
+//!
+//! Tip loss. Prandtl's F multiplies the momentum, A becomes A/F (Leishman 2006, eq. 3.126), and F
+//! depends on lambda: one bracketed unknown.
+
+use super::{Annulus, Load};
+use crate::rotor::{
+    root::{RootError, itp},
+    scalar::Scalar,
+    tip_loss::TipLoss,
+};
+
+/// Half of the width to which the flow through the disc is bracketed, as a part of the bracket.
+const TOLERANCE: f64 = 1e-14;
+
+/// Flow down through the disc, m/s: eq. (94) times the tip speed.
+///
+/// * `a`: sigma cl_alpha/16 times tip speed, > 0, m/s
+/// * `climb`: m/s
+/// * `pitch_flow`: theta Omega r, m/s
+fn through_flow(a: f64, climb: f64, pitch_flow: f64) -> f64 {
+    if pitch_flow < 0.0 {
+        return -through_flow(a, -climb, -pitch_flow);
+    }
+    let upward = a + 0.5 * climb;
+    let windmill = upward * upward - 2.0 * a * pitch_flow;
+    if upward < 0.0 && windmill >= 0.0 {
+        return upward - libm::sqrt(windmill);
+    }
+    let half = a - 0.5 * climb;
+    libm::sqrt(half * half + 2.0 * a * pitch_flow) - half
+}
+
+/// The flow and the loads at one element.
+pub fn solve(annulus: &Annulus) -> Result<Load, RootError> {
+    let rotation = annulus.in_plane;
+    if rotation == 0.0 {
+        // Small angles against a flow that does not turn: no load in this theory.
+        return Ok(Load { angle_of_attack: annulus.pitch, ..Load::default() });
+    }
+    let flow = annulus.similarity(rotation);
+    let (slope, zero_lift) = {
+        let line = |airfoil: &super::Airfoil| airfoil.lift_line(annulus.model, flow);
+        let slope = annulus.section.mixed(|airfoil| line(airfoil).0);
+        let moment = annulus.section.mixed(|airfoil| line(airfoil).0 * line(airfoil).1);
+        (slope * annulus.lifting_share, if slope == 0.0 { 0.0 } else { moment / slope })
+    };
+    let pitch = annulus.pitch - zero_lift;
+
+    // The compressibility rules depend on the lift coefficient: eq. (94) once with the
+    // incompressible slope for the lift, and again with the slope corrected at that lift.
+    let through = loaded_flow(annulus, slope, pitch)?;
+    let lift = slope * (pitch - through / rotation);
+    let corrected = if annulus.section.outer.resolves_mach() || lift == 0.0 {
+        slope
+    } else {
+        slope * annulus.model.compressibility.correct(lift, flow.mach) / lift
+    };
+    let through = if corrected == slope { through } else { loaded_flow(annulus, corrected, pitch)? };
+
+    let inflow_angle = through / rotation;
+    let angle_of_attack = annulus.pitch - inflow_angle;
+    let lift = corrected * (pitch - inflow_angle);
+    let drag = annulus.drag_coefficient(angle_of_attack, rotation);
+    let pressure =
+        0.5 * annulus.density * rotation * rotation * annulus.chord * annulus.blades;
+    let induced_velocity = through - annulus.through;
+    Ok(Load {
+        thrust: pressure * lift,
+        torque: pressure * (inflow_angle * lift + drag) * annulus.radius,
+        angle_of_attack,
+        induced_velocity,
+        mean_induced_velocity: induced_velocity * factor(annulus, through),
+        speed: rotation,
+    })
+}
+
+/// Flow through the disc with tip loss.
+fn loaded_flow(annulus: &Annulus, slope: f64, pitch: f64) -> Result<f64, RootError> {
+    if slope <= 0.0 {
+        return Ok(annulus.through); // no lift, nothing induced
+    }
+    let rotation = annulus.in_plane;
+    // sigma Omega R/16 with sigma = N c/(pi R) is (N c/(2 pi r)) Omega r/8.
+    let a = annulus.solidity() * slope * rotation / 8.0;
+    let pitch_flow = pitch * rotation;
+    let with = |factor: f64| through_flow(a / factor, annulus.through, pitch_flow);
+    let without_loss = with(1.0);
+    if annulus.tip_loss != TipLoss::Prandtl {
+        return Ok(without_loss);
+    }
+    // F falls from 1 to 0 as the flow goes from `without_loss` to its limit, theta Omega r.
+    let residual = |through: f64| {
+        let factor = factor(annulus, through);
+        if factor > 0.0 { through - with(factor) } else { through - pitch_flow }
+    };
+    let side = if pitch_flow >= without_loss { 1.0 } else { -1.0 };
+    let width = (pitch_flow - without_loss).abs();
+    itp(residual, without_loss, pitch_flow, side, TOLERANCE * width)
+}
+
+fn factor(annulus: &Annulus, through: f64) -> f64 {
+    let radius_ratio = annulus.radius / annulus.tip_radius;
+    let sin_inflow = through / annulus.in_plane; // small angle, as in thesis eq. (95)
+    Scalar::abs(annulus.tip_loss.factor(annulus.blades, radius_ratio, sin_inflow))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Eq. (94) as printed, in ratios of tip speed.
+    fn printed(a: f64, climb: f64, theta_r: f64) -> f64 {
+        ((a - climb / 2.0).powi(2) + 2.0 * a * theta_r).sqrt() - (a - climb / 2.0)
+    }
+
+    #[test]
+    fn equals_the_printed_equation_for_positive_pitch() {
+        for climb in [-0.01, 0.0, 0.02, 0.1] {
+            for theta_r in [0.0, 0.01, 0.1] {
+                let difference = through_flow(0.03, climb, theta_r) - printed(0.03, climb, theta_r);
+                assert!(difference.abs() < 1e-15, "{climb} {theta_r}");
+            }
+        }
+    }
+
+    #[test]
+    fn satisfies_momentum_theory_in_climb_and_as_a_windmill() {
+        // 4 |lambda| (lambda - lambda_c) = 8 A (theta r - lambda)
+        for (climb, theta_r) in [(0.0, 0.1), (0.05, 0.1), (-0.3, 0.05), (0.3, -0.05), (0.0, -0.1)] {
+            let a = 0.03;
+            let l = through_flow(a, climb, theta_r);
+            let sides = 4.0 * l.abs() * (l - climb) - 8.0 * a * (theta_r - l);
+            assert!(sides.abs() < 1e-15, "{climb} {theta_r}: {l} leaves {sides}");
+        }
+    }
+
+    #[test]
+    fn mirrored_pitch_and_climb_mirror_the_flow_without_a_jump_at_zero() {
+        let a = 0.03;
+        assert_eq!(through_flow(a, 0.02, 0.1), -through_flow(a, -0.02, -0.1));
+        for climb in [-0.2, -0.02, 0.0, 0.02, 0.2] {
+            let jump = through_flow(a, climb, 1e-12) - through_flow(a, climb, -1e-12);
+            assert!(jump.abs() < 1e-9, "climb {climb}: jump {jump}");
+        }
+    }
+}
