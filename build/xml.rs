@@ -199,7 +199,11 @@ fn variable(xml: &mut Xml, table: &Table, v: &Variable) -> io::Result<()> {
         }
         for (name, value) in [("min", v.min), ("max", v.max)] {
             if let Some(value) = value {
-                inner = inner.with_attribute((name, number(value).as_str()));
+                let text = match v.base() {
+                    Base::Integer => (value as i32).to_string(),
+                    _ => number(value),
+                };
+                inner = inner.with_attribute((name, text.as_str()));
             }
         }
         if let Some(start) = start_text(table, v) {

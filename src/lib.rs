@@ -4,4 +4,5 @@
 //! `block` says which variable feeds which quantity, `fmi2` is the C interface.
 
 pub mod block;
+pub mod fmi2;
 pub mod rotor;

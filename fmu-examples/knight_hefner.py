@@ -1,0 +1,176 @@
+"""Flies the hovering rotors of Knight & Hefner (1937) in FMPy, beside their measurements.
+
+Knight, M. & Hefner, R. A. (1937), "Static Thrust Analysis of the Lifting Airscrew", NACA TN 626:
+rotors of three and four untwisted NACA 0015 blades, thrust and torque against pitch. The section
+data are the authors' own, measured at the blade tip's Reynolds number. No parameter is fitted.
+
+    python knight_hefner.py --fmu HelicopterRotor.fmu --out FOLDER
+
+prints the table, and writes knight-hefner.csv and knight-hefner.png into FOLDER.
+"""
+
+import argparse
+import csv
+import math
+import sys
+import tempfile
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+from fmpy import extract, read_model_description, simulate_fmu
+
+MEASURED = Path(__file__).parent / "data" / "knight-hefner-1937-tn626-hover.csv"
+
+# The report gives 960 rpm and a tip Reynolds number of 242,000, which is that of air at 30 degrees
+# Celsius and sea-level pressure (the FMU's tipReynolds comes out at 243,000).
+AIR_CONSTANT = 2  # the choice `constant` of the enumeration air.model
+CONDITIONS = {"air.model": AIR_CONSTANT, "air.density": 1.164, "air.temperature": 303.15}
+RPM = 960.0
+
+COMPARED_FROM = 4.0  # deg; below, measured thrust is too small for differences in per cent
+
+
+def measured_rows():
+    """Measured points as dictionaries: blades, theta (deg), CT, CQ (US convention)."""
+    with MEASURED.open(encoding="utf-8") as file:
+        rows = csv.DictReader(line for line in file if not line.startswith("#"))
+        return [
+            {
+                "blades": int(row["blades"]),
+                "theta": float(row["theta_deg"]),
+                "CT": float(row["CT_rotor"]),
+                "CQ": float(row["CQ_rotor"]),
+            }
+            for row in rows
+        ]
+
+
+def fly(unzipped, description, blades, pitch):
+    """CT and CQ of the rotor with `blades` blades at a pitch in degrees."""
+    result = simulate_fmu(
+        unzipped,
+        model_description=description,
+        fmi_type="CoSimulation",
+        stop_time=0.1,
+        step_size=0.1,
+        start_values={
+            "geometry.file": f"knight-hefner-{blades}.toml",
+            "airfoil.file": "airfoils/naca0015-knight-hefner.polar",
+            "rpm": RPM,
+            "collective": math.radians(pitch),
+            **CONDITIONS,
+        },
+        output=["thrustCoefficient", "torqueCoefficient"],
+    )
+    return result["thrustCoefficient"][-1], result["torqueCoefficient"][-1]
+
+
+def percent(computed, measured):
+    """Difference in % of the measured value, or nan where that is zero."""
+    return 100.0 * (computed / measured - 1.0) if measured else float("nan")
+
+
+def table(fmu):
+    """The measured rows with what the FMU computes added; prints as it goes."""
+    rows = measured_rows()
+    print("Knight & Hefner (1937), hover, computed with naca0015-knight-hefner.polar")
+    print(" blades  pitch |   CT FMU  CT measured   diff |     CQ FMU  CQ measured   diff")
+    print("           deg |                          % |                             %")
+    with tempfile.TemporaryDirectory() as folder:
+        unzipped = extract(str(fmu), unzipdir=folder)
+        description = read_model_description(unzipped)
+        for row in rows:
+            ct, cq = fly(unzipped, description, row["blades"], row["theta"])
+            row.update(CT_fmu=ct, CQ_fmu=cq)
+            row.update(dCT=percent(ct, row["CT"]), dCQ=percent(cq, row["CQ"]))
+            d_ct = f"{row['dCT']:+6.1f}" if row["CT"] else "     -"
+            print(
+                f"  {row['blades']:5d}  {row['theta']:5.1f} | {ct:8.5f}  {row['CT']:11.5f} {d_ct} |"
+                f" {cq:10.6f}  {row['CQ']:11.6f} {row['dCQ']:+6.1f}",
+                flush=True,
+            )
+    return rows
+
+
+def summary(rows):
+    """Mean and worst magnitude of the differences in CT and CQ, %, over the compared points."""
+    compared = [row for row in rows if row["theta"] >= COMPARED_FROM]
+    result = {}
+    for name in ("dCT", "dCQ"):
+        magnitudes = [abs(row[name]) for row in compared]
+        result[name] = (sum(magnitudes) / len(magnitudes), max(magnitudes))
+    return result
+
+
+def plot(rows, file):
+    """Measured points and computed lines: CT and CQ against pitch."""
+    figure, axes = plt.subplots(1, 2, figsize=(10, 4.6), constrained_layout=True)
+    styles = {3: ("o", "-", "white"), 4: ("s", "--", "black")}
+    for axis, name, label in (
+        (axes[0], "CT", "thrust coefficient CT"),
+        (axes[1], "CQ", "torque coefficient CQ"),
+    ):
+        for blades, (marker, line, fill) in styles.items():
+            chosen = [row for row in rows if row["blades"] == blades]
+            pitch = [row["theta"] for row in chosen]
+            axis.plot(
+                pitch,
+                [row[f"{name}_fmu"] for row in chosen],
+                line,
+                color="black",
+                label=f"{blades} blades, HelicopterRotor.fmu",
+            )
+            axis.plot(
+                pitch,
+                [row[name] for row in chosen],
+                marker,
+                color="black",
+                markerfacecolor=fill,
+                label=f"{blades} blades, measured",
+            )
+        axis.set_xlabel("blade pitch, deg")
+        axis.set_ylabel(label)
+        axis.set_xlim(0, 12.5)
+        axis.set_ylim(bottom=0)
+        axis.ticklabel_format(axis="y", style="sci", scilimits=(0, 0), useMathText=True)
+        axis.grid(True, color="0.85")
+    axes[0].legend(frameon=False)
+    figure.suptitle("Hover: rotors of Knight & Hefner (1937), NACA TN 626")
+    figure.savefig(file, dpi=130)
+    plt.close(figure)
+
+
+def write_csv(rows, file):
+    """All rows, written to a temporary name first."""
+    temporary = file.with_suffix(".tmp")
+    with temporary.open("w", newline="", encoding="utf-8") as out:
+        writer = csv.DictWriter(out, fieldnames=list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+    temporary.replace(file)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
+    parser.add_argument("--out", type=Path, default=Path("."), help="folder for table and plot")
+    arguments = parser.parse_args()
+    if not arguments.fmu.is_file():
+        sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
+    arguments.out.mkdir(parents=True, exist_ok=True)
+
+    rows = table(arguments.fmu)
+    for name, (mean, worst) in summary(rows).items():
+        print(f"mean |{name}| {mean:.1f} %, worst {worst:.1f} % (pitch {COMPARED_FROM:g} deg and above)")
+    write_csv(rows, arguments.out / "knight-hefner.csv")
+    plot(rows, arguments.out / "knight-hefner.png")
+    print(f"FMU:   {arguments.fmu}")
+    print(f"Table: {arguments.out / 'knight-hefner.csv'}")
+    print(f"Plot:  {arguments.out / 'knight-hefner.png'}")
+
+
+if __name__ == "__main__":
+    main()

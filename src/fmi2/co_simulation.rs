@@ -1,0 +1,186 @@
+//! The functions of Co-Simulation: fmi2Functions.h, "Functions for FMI2 for Co-Simulation".
+
+#![allow(non_snake_case)]
+
+use super::{
+    common::not_offered,
+    instance::{Instance, Message, Outcome, call, refuse},
+    legality::Function,
+    types::*,
+};
+
+/// How far, in s, the importer's time may drift from ours: a thousandth of the step, and the
+/// rounding of times that are added up.
+fn tolerance(time: f64, step: f64) -> f64 {
+    1e-3 * step + 1e-9 * time.abs().max(1.0)
+}
+
+/// # Safety
+/// As in the standard: `c` from fmi2Instantiate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2DoStep(
+    c: fmi2Component,
+    currentCommunicationPoint: fmi2Real,
+    communicationStepSize: fmi2Real,
+    _noSetFMUStatePriorToCurrentPoint: fmi2Boolean,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        let (point, step) = (currentCommunicationPoint, communicationStepSize);
+        let experiment = instance.experiment;
+        // Written so that NaN is refused as well.
+        if !(step > 0.0 && step.is_finite()) {
+            return refuse(format!(
+                "communicationStepSize = {step} s; the step must be positive and finite"
+            ));
+        }
+        if !((point - experiment.time).abs() <= tolerance(experiment.time, step)) {
+            return refuse(format!(
+                "currentCommunicationPoint = {point} s, but the last step ended at {} s; continue from there",
+                experiment.time
+            ));
+        }
+        let end = point + step;
+        if let Some(stop) = experiment.stop_time
+            && end > stop + tolerance(stop, step)
+        {
+            return refuse(format!(
+                "the step would end at {end} s, past stopTime = {stop} s; shorten it or define no stopTime"
+            ));
+        }
+        instance.block.update()?;
+        instance.experiment.time = end;
+        Ok(())
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, Function::fmi2DoStep, body) }
+}
+
+/// # Safety
+/// As in the standard: `c` from fmi2Instantiate.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2CancelStep(c: fmi2Component) -> fmi2Status {
+    // Legal only while a step runs on, which no step of this FMU does.
+    // SAFETY: passed on from the caller.
+    unsafe { not_offered(c, Function::fmi2CancelStep, "canRunAsynchronuously = false") }
+}
+
+/// # Safety
+/// As in the standard.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
+    c: fmi2Component,
+    _vr: *const fmi2ValueReference,
+    _nvr: usize,
+    _order: *const fmi2Integer,
+    _value: *const fmi2Real,
+) -> fmi2Status {
+    // SAFETY: passed on from the caller.
+    unsafe { not_offered(c, Function::fmi2SetRealInputDerivatives, "canInterpolateInputs = false") }
+}
+
+/// # Safety
+/// As in the standard.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
+    c: fmi2Component,
+    _vr: *const fmi2ValueReference,
+    _nvr: usize,
+    _order: *const fmi2Integer,
+    _value: *mut fmi2Real,
+) -> fmi2Status {
+    // SAFETY: passed on from the caller.
+    unsafe {
+        not_offered(c, Function::fmi2GetRealOutputDerivatives, "maxOutputDerivativeOrder = 0")
+    }
+}
+
+// ------------------------------------------------------------------ status
+
+/// Answers a status of a kind that the function has, and refuses others. Steps end within
+/// fmi2DoStep, so that nothing is ever pending.
+///
+/// # Safety
+/// As `call`; `value` is null or may be written.
+unsafe fn status<T>(
+    c: fmi2Component,
+    function: Function,
+    value: *mut T,
+    answer: impl FnOnce(&Instance) -> Option<T>,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| -> Outcome {
+        let answer = answer(instance).ok_or_else(|| {
+            Message::Error("there is no such status of this type; see fmi2StatusKind".into())
+        })?;
+        // SAFETY: passed on from the caller.
+        let slot = unsafe { value.as_mut() };
+        *slot.ok_or_else(|| Message::Error("value is a null pointer".into()))? = answer;
+        Ok(())
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, function, body) }
+}
+
+/// # Safety
+/// As in the standard: `value` may be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetStatus(
+    c: fmi2Component,
+    s: fmi2Enumeration,
+    value: *mut fmi2Status,
+) -> fmi2Status {
+    let answer = |_: &Instance| (s == FMI2_DO_STEP_STATUS).then_some(fmi2Status::fmi2OK);
+    // SAFETY: passed on from the caller.
+    unsafe { status(c, Function::fmi2GetStatus, value, answer) }
+}
+
+/// # Safety
+/// As in the standard: `value` may be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealStatus(
+    c: fmi2Component,
+    s: fmi2Enumeration,
+    value: *mut fmi2Real,
+) -> fmi2Status {
+    let answer = |i: &Instance| (s == FMI2_LAST_SUCCESSFUL_TIME).then_some(i.experiment.time);
+    // SAFETY: passed on from the caller.
+    unsafe { status(c, Function::fmi2GetRealStatus, value, answer) }
+}
+
+/// # Safety
+/// As in the standard: `value` may be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetIntegerStatus(
+    c: fmi2Component,
+    _s: fmi2Enumeration,
+    value: *mut fmi2Integer,
+) -> fmi2Status {
+    // SAFETY: passed on from the caller.
+    unsafe { status(c, Function::fmi2GetIntegerStatus, value, |_| None) }
+}
+
+/// # Safety
+/// As in the standard: `value` may be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetBooleanStatus(
+    c: fmi2Component,
+    s: fmi2Enumeration,
+    value: *mut fmi2Boolean,
+) -> fmi2Status {
+    // This FMU never asks to end the simulation.
+    let answer = |_: &Instance| (s == FMI2_TERMINATED).then_some(FMI2_FALSE);
+    // SAFETY: passed on from the caller.
+    unsafe { status(c, Function::fmi2GetBooleanStatus, value, answer) }
+}
+
+/// # Safety
+/// As in the standard: `value` may be written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetStringStatus(
+    c: fmi2Component,
+    s: fmi2Enumeration,
+    value: *mut fmi2String,
+) -> fmi2Status {
+    let answer = |_: &Instance| (s == FMI2_PENDING_STATUS).then_some(c"".as_ptr());
+    // SAFETY: passed on from the caller.
+    unsafe { status(c, Function::fmi2GetStringStatus, value, answer) }
+}

@@ -1,0 +1,118 @@
+//! One instance of the FMU, and the frame in which every function of the interface runs.
+
+use super::{
+    legality::{Function, INITIALIZATION_MODE, States},
+    logger::{Category, Logger},
+    types::{fmi2Component, fmi2Status},
+};
+use crate::block::{BlockError, RotorBlock, variables::STRINGS};
+use std::{
+    any::Any,
+    ffi::CString,
+    panic::{AssertUnwindSafe, catch_unwind},
+};
+
+pub struct Instance {
+    pub state: States,
+    pub block: RotorBlock,
+    pub logger: Logger,
+    /// What fmi2GetString handed out: valid until the next call, by value reference.
+    pub strings: [CString; STRINGS.len()],
+    pub experiment: Experiment,
+}
+
+/// Time as the importer keeps it, s.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Experiment {
+    pub time: f64,
+    pub stop_time: Option<f64>,
+}
+
+/// Something to tell the importer when the function ends.
+pub enum Message {
+    Error(String),
+    Warning(String),
+}
+
+pub type Outcome = Result<(), Message>;
+
+/// An error of any of the rooms below, as a sentence.
+impl<E: std::error::Error> From<E> for Message {
+    fn from(error: E) -> Self {
+        Self::Error(error.to_string())
+    }
+}
+
+/// An error in the arguments of a call.
+pub fn refuse(text: String) -> Outcome {
+    Err(Message::Error(text))
+}
+
+impl Instance {
+    /// Outputs that are read in Initialization Mode belong to what was set before.
+    pub fn refresh_while_initializing(&mut self) -> Result<(), BlockError> {
+        if self.state == INITIALIZATION_MODE { self.block.update() } else { Ok(()) }
+    }
+}
+
+/// Runs the body of a function on its instance: refuses a call without an instance or in the
+/// wrong state, keeps panics inside, and logs what the body says.
+///
+/// # Safety
+/// `component` is null or comes from fmi2Instantiate, is not freed, and no other call on it runs.
+pub unsafe fn call(
+    component: fmi2Component,
+    function: Function,
+    body: impl FnOnce(&mut Instance) -> Outcome,
+) -> fmi2Status {
+    let instance = component.cast::<Instance>();
+    if instance.is_null() {
+        return fmi2Status::fmi2Error;
+    }
+    let outcome = catch_unwind(AssertUnwindSafe(|| {
+        // SAFETY: not null, and by the contract above the only reference to a living instance. It
+        // ends before the logger runs, which may call back into this library.
+        let instance = unsafe { &mut *instance };
+        function.check(instance.state).map_err(Message::Error)?;
+        body(instance)
+    }))
+    .unwrap_or_else(|panic| Err(Message::Error(internal_error(&*panic))));
+
+    catch_unwind(AssertUnwindSafe(|| {
+        // SAFETY: as above.
+        let notes = unsafe { (*instance).block.take_notes() };
+        let logger = unsafe { &(*instance).logger };
+        for note in notes {
+            logger.log(fmi2Status::fmi2OK, Category::Events, &note);
+        }
+        match outcome {
+            Ok(()) => fmi2Status::fmi2OK,
+            Err(Message::Warning(text)) => {
+                let text = prefixed(function, &text);
+                logger.log(fmi2Status::fmi2Warning, Category::Warning, &text);
+                fmi2Status::fmi2Warning
+            }
+            Err(Message::Error(text)) => {
+                let text = prefixed(function, &text);
+                logger.log(fmi2Status::fmi2Error, Category::Error, &text);
+                fmi2Status::fmi2Error
+            }
+        }
+    }))
+    .unwrap_or(fmi2Status::fmi2Error)
+}
+
+fn prefixed(function: Function, text: &str) -> String {
+    let name = function.name();
+    if text.starts_with(name) { text.to_owned() } else { format!("{name}: {text}") }
+}
+
+/// What a caught panic says.
+fn internal_error(panic: &(dyn Any + Send)) -> String {
+    let text = panic
+        .downcast_ref::<&str>()
+        .copied()
+        .or_else(|| panic.downcast_ref::<String>().map(String::as_str))
+        .unwrap_or("no message");
+    format!("internal error ({text}); the instance can be used on, but please report this")
+}

@@ -1,0 +1,18 @@
+//! The documentation page: its text with the table of variables put in.
+
+use crate::Failure;
+
+const VARIABLES: &str = include_str!(concat!(env!("OUT_DIR"), "/variables.html"));
+const PLACE: &str = "<!-- variables -->";
+const VERSION_PLACE: &str = "<!-- version -->";
+
+/// The page from its template (modelDescription/documentation/index.html).
+pub fn page(template: &[u8]) -> Result<String, Failure> {
+    let text = String::from_utf8_lossy(template);
+    for place in [PLACE, VERSION_PLACE] {
+        if !text.contains(place) {
+            return Err(Failure(format!("documentation/index.html has no place `{place}`")));
+        }
+    }
+    Ok(text.replace(PLACE, VARIABLES).replace(VERSION_PLACE, env!("CARGO_PKG_VERSION")))
+}

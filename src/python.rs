@@ -1,0 +1,86 @@
+//! The Python environment of the examples: a venv under the target folder, made once for each
+//! content of fmu-examples/requirements.txt.
+
+use crate::{Failure, failed};
+use indicatif::ProgressBar;
+use std::{
+    fs::{self, File},
+    path::{Path, PathBuf},
+    process::{Command, Output},
+    time::Duration,
+};
+
+/// The examples' folder, in the source tree that this program was built from.
+pub fn examples() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("fmu-examples")
+}
+
+/// Path of the environment's interpreter; makes the environment if it is not there, or not there
+/// with the present requirements.
+pub fn environment(target: &Path) -> Result<PathBuf, Failure> {
+    let folder = target.join("python");
+    let interpreter = folder.join("bin").join("python");
+    let stamp = folder.join("requirements.txt");
+    let requirements = examples().join("requirements.txt");
+    let wanted = fs::read_to_string(&requirements)
+        .map_err(failed(format!("cannot read {}", requirements.display())))?;
+
+    // One process makes it, others wait for it.
+    fs::create_dir_all(target).map_err(failed(format!("cannot make {}", target.display())))?;
+    let lock_path = target.join("python.lock");
+    let lock = File::create(&lock_path)
+        .map_err(failed(format!("cannot make {}", lock_path.display())))?;
+    lock.lock().map_err(failed(format!("cannot lock {}", lock_path.display())))?;
+    if fs::read_to_string(&stamp).is_ok_and(|found| found == wanted) && interpreter.is_file() {
+        return Ok(interpreter);
+    }
+
+    let python = system_python()?;
+    let spinner = ProgressBar::new_spinner();
+    spinner.enable_steady_tick(Duration::from_millis(120));
+    spinner.set_message("making the Python environment (once) ...");
+    if folder.exists() {
+        fs::remove_dir_all(&folder)
+            .map_err(failed(format!("cannot replace {}", folder.display())))?;
+    }
+    succeed(
+        Command::new(&python).args(["-m", "venv"]).arg(&folder),
+        "cannot make a Python environment; on Debian or Ubuntu, install the package python3-venv",
+    )?;
+    spinner.set_message("installing FMPy and Matplotlib into it (once, about a minute) ...");
+    succeed(
+        Command::new(&interpreter)
+            .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"])
+            .arg(&requirements),
+        "cannot install the Python packages in fmu-examples/requirements.txt; is PyPI within reach?",
+    )?;
+    // Written last: an environment without it is made anew.
+    fs::write(&stamp, wanted).map_err(failed(format!("cannot write {}", stamp.display())))?;
+    spinner.finish_and_clear();
+    Ok(interpreter)
+}
+
+/// The name of an interpreter of version 3.10 or later.
+fn system_python() -> Result<&'static str, Failure> {
+    const NEEDED: &str = "python3 (3.10 or later) is missing, which flies the FMU in FMPy";
+    let check = "import sys; print(sys.version.split()[0]); sys.exit(sys.version_info < (3, 10))";
+    let found = Command::new("python3").args(["-c", check]).output();
+    match found {
+        Ok(output) if output.status.success() => Ok("python3"),
+        Ok(output) => {
+            let version = String::from_utf8_lossy(&output.stdout).trim().to_owned();
+            Err(Failure(format!("{NEEDED}; the one on the PATH is {version}")))
+        }
+        Err(error) => Err(Failure(format!("{NEEDED} ({error}); install it and run this again"))),
+    }
+}
+
+/// Runs a command to its end; its own words are shown only if it fails.
+fn succeed(command: &mut Command, what: &str) -> Result<Output, Failure> {
+    let output = command.output().map_err(failed(what))?;
+    if output.status.success() {
+        return Ok(output);
+    }
+    let words = [output.stdout.as_slice(), output.stderr.as_slice()].concat();
+    Err(Failure(format!("{what}\n{}", String::from_utf8_lossy(&words).trim())))
+}
