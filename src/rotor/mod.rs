@@ -12,7 +12,6 @@ pub mod tip_loss;
 
 use air::Air;
 use airfoil::{Airfoil, SectionModel, Similarity};
-use core::f64::consts::PI;
 use geometry::{Elements, Geometry};
 use inflow::{Annulus, Inflow, Load, Section, annulus, closed_form};
 use root::RootError;
@@ -170,12 +169,7 @@ impl Rotor {
         let limit = |side: fn((f64, f64)) -> f64| {
             annulus.section.mixed(|airfoil| side(airfoil.stall_angles(flow)))
         };
-        let alpha = wrapped(load.angle_of_attack);
+        let alpha = airfoil::wrapped(load.angle_of_attack);
         load.speed > 0.0 && (alpha < limit(|s| s.0) || alpha > limit(|s| s.1))
     }
-}
-
-/// The same angle between -pi and pi.
-fn wrapped(angle: f64) -> f64 {
-    angle - 2.0 * PI * libm::round(angle / (2.0 * PI))
 }

@@ -7,124 +7,141 @@ use thiserror::Error;
 pub enum RootError {
     #[error("the residual is not a finite number inside the bracket")]
     NotFinite,
+    #[error("the residual has the same sign at both ends of the bracket")]
+    NoSignChange,
     #[error("the bracket did not close within the method's bound on evaluations")]
     OutOfIterations,
 }
 
-/// Root of `residual` between `a` and `b` by the ITP method (Oliveira & Takahashi 2020, "An
-/// Enhancement of the Bisection Method Average Performance Preserving Minmax Optimality", ACM
-/// Trans. Math. Softw. 47(1) 5, algorithm 1; kappa1 = 0.2/|b - a|, kappa2 = 2, n0 = 1).
+/// One end of a bracket: a place, and the residual there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct End {
+    pub at: f64,
+    pub residual: f64,
+}
+
+/// Root of `residual` between two ends where it has different signs, by Chandrupatla's method
+/// (1997, "A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function
+/// without using derivatives", Adv. Eng. Softw. 28(3), p. 145): inverse quadratic interpolation
+/// where the last three points allow it, else bisection.
 ///
-/// Converges faster than linearly on smooth residuals, and needs never more than one evaluation
-/// above bisection (two, where rounding leaves the bracket a hair too wide), which is the bound
-/// that the loop enforces.
+/// Bound: after as many steps as bisection alone would need, only bisection is used, so that
+/// there are never more than twice those steps.
 ///
-/// * `end_sign`: +1 if the residual rises from `a` to `b`, else -1: the sign it has at `b`, where
-///   it is not evaluated (it may vanish there without a change of sign).
-/// * `tolerance`: half of the bracket's width at the end, in the unit of `a` and `b`.
-pub fn itp(
+/// * `first`, `last`: the ends, in either order. Their residuals steer the first steps only: where
+///   just the sign at an end is known, any value of that sign will do.
+/// * `tolerance`: to which the root is found, in the unit of the places; not below their rounding.
+pub fn bracketed(
     mut residual: impl FnMut(f64) -> f64,
-    a: f64,
-    b: f64,
-    end_sign: f64,
+    first: End,
+    last: End,
     tolerance: f64,
 ) -> Result<f64, RootError> {
-    // Oriented so that the residual is negative at `low` and positive at `high`; `low` may lie
-    // to the right of `high`.
-    let start = residual(a) * end_sign;
-    if !start.is_finite() || !b.is_finite() {
+    if ![first.at, first.residual, last.at, last.residual].iter().all(|x| x.is_finite()) {
         return Err(RootError::NotFinite);
     }
-    if start >= 0.0 || a == b {
-        return Ok(a);
+    if first.residual == 0.0 || first.at == last.at {
+        return Ok(first.at);
     }
-    let (mut low, mut high) = (a, b);
-    // The sign at `b` is known, its size is not: that of `a` makes the first step a bisection.
-    let (mut at_low, mut at_high) = (start, -start);
-    let width = (b - a).abs();
-    let half = (width / (2.0 * tolerance)).max(1.0);
-    let bisections = libm::ceil(libm::log2(half)) as i32;
-    let bound = bisections + 1;
-    let kappa1 = 0.2 / width;
-
-    for step in 0..=bound {
-        let span = high - low;
-        if span.abs() <= 2.0 * tolerance {
-            return Ok(0.5 * (low + high));
-        }
-        let middle = 0.5 * (low + high);
-        let reach = tolerance * libm::exp2(f64::from(bound - step)) - 0.5 * span.abs();
-        let interpolated = (at_high * low - at_low * high) / (at_high - at_low);
-        let towards = if middle >= interpolated { 1.0 } else { -1.0 };
-        let truncation = kappa1 * span * span;
-        let truncated = if truncation <= (middle - interpolated).abs() {
-            interpolated + towards * truncation
-        } else {
-            middle
-        };
-        let x = if (truncated - middle).abs() <= reach {
-            truncated
-        } else {
-            middle - towards * reach
-        };
-        let value = residual(x) * end_sign;
-        if !value.is_finite() {
+    if last.residual == 0.0 {
+        return Ok(last.at);
+    }
+    if (first.residual > 0.0) == (last.residual > 0.0) {
+        return Err(RootError::NoSignChange);
+    }
+    let bisections = {
+        let width = (last.at - first.at).abs();
+        libm::ceil(libm::log2((width / tolerance).max(1.0))) as u32 + 1
+    };
+    // The root lies between `new` and `other`; `old` is the point that `new` replaced.
+    let (mut new, mut other) = (first, last);
+    let mut part = 0.5;
+    for step in 0..2 * bisections {
+        let at = new.at + part * (other.at - new.at);
+        let next = End { at, residual: residual(at) };
+        if !next.residual.is_finite() {
             return Err(RootError::NotFinite);
         }
-        if value > 0.0 {
-            (high, at_high) = (x, value);
-        } else if value < 0.0 {
-            (low, at_low) = (x, value);
+        let old;
+        if (next.residual > 0.0) == (new.residual > 0.0) {
+            old = new;
         } else {
-            return Ok(x);
+            (old, other) = (other, new);
         }
-    }
-    if (high - low).abs() <= 2.0 * tolerance {
-        return Ok(0.5 * (low + high));
+        new = next;
+        let best = if new.residual.abs() < other.residual.abs() { new } else { other };
+        let span = (other.at - new.at).abs();
+        if best.residual == 0.0 || span <= 2.0 * tolerance {
+            return Ok(best.at);
+        }
+        part = if step < bisections { interpolation(new, other, old) } else { 0.5 };
+        let margin = tolerance / span;
+        part = part.clamp(margin, 1.0 - margin);
     }
     Err(RootError::OutOfIterations)
+}
+
+/// Where the root is expected, as a part of the way from `new` to `other` (Chandrupatla 1997,
+/// eqs. 6 to 8).
+fn interpolation(new: End, other: End, old: End) -> f64 {
+    let xi = (new.at - other.at) / (old.at - other.at);
+    let phi = (new.residual - other.residual) / (old.residual - other.residual);
+    let is_safe = phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi;
+    if !is_safe {
+        return 0.5;
+    }
+    let (a, b, c) = (new.residual, other.residual, old.residual);
+    a / (b - a) * c / (b - c) + (old.at - new.at) / (other.at - new.at) * a / (c - a) * b / (c - b)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    /// Counts the evaluations that a residual needs.
-    fn counted(f: impl Fn(f64) -> f64, a: f64, b: f64, sign: f64) -> (f64, u32) {
+    /// Root and the number of evaluations that it takes, from the values at both ends.
+    fn counted(f: impl Fn(f64) -> f64, a: f64, b: f64) -> (f64, u32) {
         let mut count = 0;
         let counting = |x| {
             count += 1;
             f(x)
         };
-        let x = itp(counting, a, b, sign, 1e-13).unwrap();
+        let end = |at| End { at, residual: f(at) };
+        let x = bracketed(counting, end(a), end(b), 1e-13).unwrap();
         (x, count)
     }
 
     #[test]
     fn finds_known_roots_in_either_direction_within_the_bound() {
-        // Bisection from a width of 2 to 2e-13 takes 44 evaluations; the bound is 1 + 44 + 2.
-        for (a, b, sign) in [(0.0, 2.0, 1.0), (2.0, 0.0, -1.0)] {
-            let (x, count) = counted(|x| x * x * x - 2.0, a, b, sign);
+        // Bisection from a width of 2 to 1e-13 takes 45 evaluations; the bound is twice that.
+        for (a, b) in [(0.0, 2.0), (2.0, 0.0)] {
+            let (x, count) = counted(|x| x * x * x - 2.0, a, b);
             assert!((x - 1.259_921_049_894_873_2).abs() < 2e-13, "{x}");
-            assert!(count <= 14, "{count} evaluations on a smooth residual");
-            let (x, count) = counted(|x| if x > 0.3 { 1.0 } else { -1e-9 }, a, b, sign);
+            assert!(count <= 9, "{count} evaluations on a smooth residual");
+            let (x, count) = counted(|x| if x > 0.3 { 1.0 } else { -1e-9 }, a, b);
             assert!((x - 0.3).abs() < 2e-13, "{x}");
-            assert!(count <= 47, "{count} evaluations on a step");
+            assert!(count <= 90, "{count} evaluations on a step");
         }
     }
 
     #[test]
-    fn a_residual_that_vanishes_at_the_far_end_is_no_root_there() {
-        // sin(x)(x - 1) vanishes at pi too, but changes sign at 1.
-        let x = itp(|x| libm::sin(x) * (x - 1.0), 0.5, core::f64::consts::PI, 1.0, 1e-13).unwrap();
+    fn an_end_at_which_only_the_sign_is_known_is_no_root() {
+        // sin(x)(x - 1) vanishes at pi too, but changes its sign at 1.
+        let residual = |x: f64| libm::sin(x) * (x - 1.0);
+        let first = End { at: 0.5, residual: residual(0.5) };
+        let last = End { at: core::f64::consts::PI, residual: 1.0 };
+        let x = bracketed(residual, first, last, 1e-13).unwrap();
         assert!((x - 1.0).abs() < 2e-13, "{x}");
     }
 
     #[test]
-    fn a_residual_that_is_no_number_is_an_error() {
-        assert_eq!(
-            itp(|x| if x < 0.1 { -1.0 } else { f64::NAN }, 0.0, 1.0, 1.0, 1e-13),
-            Err(RootError::NotFinite)
-        );
+    fn ends_of_one_sign_and_residuals_that_are_no_numbers_are_errors() {
+        let first = End { at: 0.0, residual: -1.0 };
+        let last = End { at: 1.0, residual: 1.0 };
+        assert_eq!(bracketed(|_| f64::NAN, first, last, 1e-13), Err(RootError::NotFinite));
+        assert_eq!(bracketed(|x| x, first, first, 1e-13), Ok(0.0), "an empty bracket is its end");
+        let same = End { residual: -2.0, ..last };
+        assert_eq!(bracketed(|x| x, first, same, 1e-13), Err(RootError::NoSignChange));
+        let nowhere = End { at: f64::NAN, residual: 1.0 };
+        assert_eq!(bracketed(|x| x - 0.5, first, nowhere, 1e-13), Err(RootError::NotFinite));
     }
 }

@@ -5,7 +5,7 @@ mod c81;
 mod polar;
 mod table;
 
-pub use table::{Axis, Curve, Table};
+pub use table::{Axis, Curve, Table, wrapped};
 
 use super::{compressibility::Compressibility, scalar::Scalar};
 use core::f64::consts::PI;
@@ -104,8 +104,9 @@ impl Airfoil {
     /// Outside the table's Reynolds numbers the nearest one's drag is scaled with
     /// (Re_table/Re)^n: Yamauchi & Johnson 1983, "Trends of Reynolds Number Effects on
     /// Two-Dimensional Airfoil Characteristics for Helicopter Rotor Analyses", NASA TM-84363,
-    /// n = 0.2 for a turbulent boundary layer. Tables by Mach number know no Reynolds number and
-    /// stay as they are.
+    /// n = 0.2 for a turbulent boundary layer. Beyond stall, where the drag is that of pressure
+    /// and knows little of the boundary layer, only the part that is not above the drag at the
+    /// stall angle is scaled. Tables by Mach number know no Reynolds number and stay as they are.
     pub fn drag_coefficient<S: Scalar>(
         &self,
         model: &SectionModel,
@@ -122,7 +123,11 @@ impl Airfoil {
             return drag;
         }
         let ratio = S::constant(nearest) / reynolds;
-        drag * (ratio.ln() * model.drag_reynolds_exponent).exp()
+        let factor = (ratio.ln() * model.drag_reynolds_exponent).exp();
+        let plain = Similarity { reynolds: flow.reynolds.value(), mach: flow.mach.value() };
+        let (negative, positive) = self.lift.stall_angles(plain);
+        let stall = if wrapped(alpha).value() < 0.0 { negative } else { positive };
+        drag + drag.at_most(self.drag.value(stall, plain)) * (factor - 1.0)
     }
 
     /// Slope of the line through the lift at -3 and +3 deg of angle of attack, 1/rad, and
@@ -148,5 +153,33 @@ impl Airfoil {
     /// Angles of attack (negative, positive; rad) at which the lift reaches its first peak.
     pub fn stall_angles(&self, flow: Similarity<f64>) -> (f64, f64) {
         self.lift.stall_angles(flow)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn drag(alpha_deg: f64, reynolds: f64, exponent: f64) -> f64 {
+        let text = "polar 1\nreynolds 1e5\n-180 0 0.02\n-10 -1 0.04\n0 0 0.01\n10 1 0.04\n90 0 2\n180 0 0.02\n";
+        let airfoil = polar::parse(text, "test").unwrap();
+        let model = SectionModel {
+            lift: Lift::Table,
+            compressibility: Compressibility::None,
+            drag_reynolds_exponent: exponent,
+        };
+        let flow = Similarity { reynolds, mach: 0.0 };
+        airfoil.drag_coefficient(&model, alpha_deg.to_radians(), flow)
+    }
+
+    #[test]
+    fn drag_outside_the_reynolds_range_follows_the_power_law_up_to_stall() {
+        assert_eq!(drag(0.0, 1e5, 0.2), 0.01);
+        assert_eq!(drag(0.0, 2e4, 0.0), 0.01);
+        assert!((drag(0.0, 2e4, 0.2) / (0.01 * 5.0_f64.powf(0.2)) - 1.0).abs() < 1e-14);
+        assert!((drag(0.0, 1e7, 0.2) / (0.01 * 0.01_f64.powf(0.2)) - 1.0).abs() < 1e-14);
+        assert_eq!(drag(0.0, 10.0, 0.2), drag(0.0, 1e4, 0.2), "the floor");
+        let added = drag(90.0, 2e4, 0.2) - 2.0;
+        assert!((added / (0.04 * (5.0_f64.powf(0.2) - 1.0)) - 1.0).abs() < 1e-12, "{added}");
     }
 }

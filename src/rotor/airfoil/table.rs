@@ -97,7 +97,7 @@ impl Table {
     }
 
     pub fn value<S: Scalar>(&self, alpha: S, flow: Similarity<S>) -> S {
-        let alpha = wrap(alpha);
+        let alpha = wrapped(alpha);
         let (layer, weight) = self.layer(flow);
         let Some(weight) = weight else {
             return self.curve[layer].value(alpha);
@@ -143,7 +143,7 @@ impl Table {
 }
 
 /// The same angle between -pi and pi.
-fn wrap<S: Scalar>(alpha: S) -> S {
+pub fn wrapped<S: Scalar>(alpha: S) -> S {
     let value = alpha.value();
     if (-PI..=PI).contains(&value) {
         return alpha;

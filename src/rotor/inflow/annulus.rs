@@ -39,12 +39,12 @@
 
 use super::{Annulus, Load};
 use crate::rotor::{
-    root::{RootError, itp},
+    root::{End, RootError, bracketed},
     scalar::Scalar,
 };
 use core::f64::consts::FRAC_PI_2;
 
-/// Half of the width to which the inflow angle is bracketed, rad.
+/// To which the inflow angle is found, rad.
 const TOLERANCE: f64 = 1e-14;
 
 /// The undisturbed flow: speed U and angle phi0.
@@ -86,27 +86,32 @@ pub fn solve(annulus: &Annulus) -> Result<Load, RootError> {
 
 fn inflow_angle(annulus: &Annulus, undisturbed: Undisturbed) -> Result<f64, RootError> {
     let equation = |phi: f64| residual(annulus, undisturbed, phi);
-    let start = undisturbed.angle;
-    let at_start = equation(start);
-    if at_start == 0.0 {
-        return Ok(start); // no lift, nothing induced
-    }
-    let side = if at_start < 0.0 { 1.0 } else { -1.0 };
-    let search = |from: f64, to: f64| itp(equation, from, to, side, TOLERANCE);
+    let end = |at: f64| End { at, residual: equation(at) };
+    let search = |from: End, to: End| bracketed(equation, from, to, TOLERANCE);
 
-    let descending = side * start < 0.0;
-    if descending && equation(0.5 * start) * side >= 0.0 {
-        return search(start, 0.5 * start);
+    let start = end(undisturbed.angle);
+    if start.residual == 0.0 {
+        return Ok(start.at); // no lift, nothing induced
     }
-    let from = if descending { 0.0 } else { start };
-    let far = start + side * FRAC_PI_2;
+    let side = if start.residual < 0.0 { 1.0 } else { -1.0 };
+    let mut from = start;
+    if side * start.at < 0.0 {
+        let windmill = end(0.5 * start.at);
+        if windmill.residual * side >= 0.0 {
+            return search(start, windmill);
+        }
+        from = windmill;
+    }
+    let far = start.at + side * FRAC_PI_2;
     // A tighter bracket: without lift, at phi = theta of a symmetrical section, R has the sign of
     // the side, which is checked rather than assumed.
-    let pitch = annulus.pitch;
-    if side * (pitch - from) > 0.0 && side * (far - pitch) > 0.0 && equation(pitch) * side > 0.0 {
-        return search(from, pitch);
+    if side * (annulus.pitch - from.at) > 0.0 && side * (far - annulus.pitch) > 0.0 {
+        let pitch = end(annulus.pitch);
+        if pitch.residual * side > 0.0 {
+            return search(from, pitch);
+        }
     }
-    search(from, far)
+    search(from, End { at: far, residual: -from.residual })
 }
 
 fn load(annulus: &Annulus, undisturbed: Undisturbed, inflow_angle: f64) -> Load {

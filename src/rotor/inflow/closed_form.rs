@@ -24,12 +24,12 @@
 
 use super::{Annulus, Load};
 use crate::rotor::{
-    root::{RootError, itp},
+    root::{End, RootError, bracketed},
     scalar::Scalar,
     tip_loss::TipLoss,
 };
 
-/// Half of the width to which the flow through the disc is bracketed, as a part of the bracket.
+/// To which the flow through the disc is found, as a part of its bracket.
 const TOLERANCE: f64 = 1e-14;
 
 /// Flow down through the disc, m/s: eq. (94) times the tip speed.
@@ -113,9 +113,13 @@ fn loaded_flow(annulus: &Annulus, slope: f64, pitch: f64) -> Result<f64, RootErr
         let factor = factor(annulus, through);
         if factor > 0.0 { through - with(factor) } else { through - pitch_flow }
     };
-    let side = if pitch_flow >= without_loss { 1.0 } else { -1.0 };
-    let width = (pitch_flow - without_loss).abs();
-    itp(residual, without_loss, pitch_flow, side, TOLERANCE * width)
+    let first = End { at: without_loss, residual: residual(without_loss) };
+    let side = if pitch_flow > without_loss { 1.0 } else { -1.0 };
+    if first.residual * side >= 0.0 {
+        return Ok(without_loss); // F differs from 1 by less than the rounding of the equation
+    }
+    let last = End { at: pitch_flow, residual: -first.residual };
+    bracketed(residual, first, last, TOLERANCE * (pitch_flow - without_loss).abs())
 }
 
 fn factor(annulus: &Annulus, through: f64) -> f64 {

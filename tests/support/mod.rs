@@ -1,0 +1,17 @@
+//! What the integration tests share: the packaged FMU, loaded as an importer loads it.
+//!
+//! * `c.rs`: the C types and functions of the standard, written apart from the code under test
+//! * `fmu.rs`: the .fmu as the program packages it, unpacked and loaded
+//! * `instance.rs`: an instance with variables by name, and its log
+//! * `child.rs`: a test run alone in a process of its own
+
+// Each test program uses a part of this.
+#![allow(dead_code)]
+
+pub mod c;
+pub mod child;
+pub mod fmu;
+pub mod instance;
+
+pub use fmu::Fmu;
+pub use instance::{Creation, Instance, Line};
