@@ -20,7 +20,11 @@ pub fn variables(table: &Table) -> String {
                 default(table, v),
                 range(v),
                 escape(&v.description),
-                if v.variability() == "tunable" { " (tunable)" } else { "" },
+                if v.variability() == "tunable" {
+                    " (tunable)"
+                } else {
+                    ""
+                },
             );
         }
         html += "</table>\n";
@@ -55,14 +59,19 @@ fn default(table: &Table, v: &Variable) -> String {
         (Some(start), Base::Real) => {
             let value = start.as_float().unwrap_or_default();
             let shown = v.display_unit.as_ref().and_then(|name| {
-                let unit = table.units.iter().find(|u| Some(&u.name) == v.unit.as_ref())?;
+                let unit = table
+                    .units
+                    .iter()
+                    .find(|u| Some(&u.name) == v.unit.as_ref())?;
                 let display = unit.display.iter().find(|d| &d.name == name)?;
                 let value = value * display.factor + display.offset.unwrap_or(0.0);
                 Some(format!("{} {name}", short(value)))
             });
             shown.unwrap_or_else(|| short(value))
         }
-        (Some(start), Base::String) => format!("<code>{}</code>", escape(start.as_str().unwrap_or(""))),
+        (Some(start), Base::String) => {
+            format!("<code>{}</code>", escape(start.as_str().unwrap_or("")))
+        }
         (Some(start), Base::Integer) => match start.as_str() {
             Some(choice) => format!("<code>{choice}</code>"),
             None => start.to_string(),

@@ -65,8 +65,14 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
         }
         writeln!(out, "}}")?;
         writeln!(out, "impl {} {{", enumeration.name)?;
-        writeln!(out, "    /// The choice behind the integer that FMI passes.")?;
-        writeln!(out, "    pub fn from_integer(value: i32) -> Option<Self> {{")?;
+        writeln!(
+            out,
+            "    /// The choice behind the integer that FMI passes."
+        )?;
+        writeln!(
+            out,
+            "    pub fn from_integer(value: i32) -> Option<Self> {{"
+        )?;
         writeln!(out, "        match value {{")?;
         for (i, item) in enumeration.items.iter().enumerate() {
             writeln!(
@@ -84,12 +90,19 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
 fn row(table: &Table, v: &Variable) -> String {
     let (start, min, max) = match v.base() {
         Base::Real => (
-            format!("{:?}", v.start.as_ref().and_then(|s| s.as_float()).unwrap_or(0.0)),
-            v.min.map_or("f64::NEG_INFINITY".into(), |x| format!("{x:?}")),
+            format!(
+                "{:?}",
+                v.start.as_ref().and_then(|s| s.as_float()).unwrap_or(0.0)
+            ),
+            v.min
+                .map_or("f64::NEG_INFINITY".into(), |x| format!("{x:?}")),
             v.max.map_or("f64::INFINITY".into(), |x| format!("{x:?}")),
         ),
         Base::String => (
-            format!("{:?}", v.start.as_ref().and_then(|s| s.as_str()).unwrap_or("")),
+            format!(
+                "{:?}",
+                v.start.as_ref().and_then(|s| s.as_str()).unwrap_or("")
+            ),
             "\"\"".into(),
             "\"\"".into(),
         ),

@@ -90,8 +90,8 @@ fn units(xml: &mut Xml, table: &Table) -> io::Result<()> {
                     .write_inner_content(|xml| {
                         let mut base = xml.create_element("BaseUnit");
                         for (name, exponent) in &unit.base {
-                            base = base
-                                .with_attribute((name.as_str(), exponent.to_string().as_str()));
+                            base =
+                                base.with_attribute((name.as_str(), exponent.to_string().as_str()));
                         }
                         if let Some(factor) = unit.factor {
                             base = base.with_attribute(("factor", number(factor).as_str()));
@@ -249,7 +249,9 @@ fn model_structure(xml: &mut Xml, table: &Table) -> io::Result<()> {
                 Ok(())
             })?;
             xml.create_element("InitialUnknowns")
-                .write_inner_content(|xml| outputs().try_for_each(|v| unknown(xml, table, v, None)))?;
+                .write_inner_content(|xml| {
+                    outputs().try_for_each(|v| unknown(xml, table, v, None))
+                })?;
             Ok(())
         })?;
     Ok(())

@@ -73,25 +73,22 @@ def percent(computed, measured):
     return 100.0 * (computed / measured - 1.0) if measured else float("nan")
 
 
-def table(fmu):
+def table(fly_at):
     """The measured rows with what the FMU computes added; prints as it goes."""
     rows = measured_rows()
     print("Knight & Hefner (1937), hover, computed with naca0015-knight-hefner.polar")
     print(" blades  pitch |   CT FMU  CT measured   diff |     CQ FMU  CQ measured   diff")
     print("           deg |                          % |                             %")
-    with tempfile.TemporaryDirectory() as folder:
-        unzipped = extract(str(fmu), unzipdir=folder)
-        description = read_model_description(unzipped)
-        for row in rows:
-            ct, cq = fly(unzipped, description, row["blades"], row["theta"])
-            row.update(CT_fmu=ct, CQ_fmu=cq)
-            row.update(dCT=percent(ct, row["CT"]), dCQ=percent(cq, row["CQ"]))
-            d_ct = f"{row['dCT']:+6.1f}" if row["CT"] else "     -"
-            print(
-                f"  {row['blades']:5d}  {row['theta']:5.1f} | {ct:8.5f}  {row['CT']:11.5f} {d_ct} |"
-                f" {cq:10.6f}  {row['CQ']:11.6f} {row['dCQ']:+6.1f}",
-                flush=True,
-            )
+    for row in rows:
+        ct, cq = fly_at(row["blades"], row["theta"])
+        row.update(CT_fmu=ct, CQ_fmu=cq)
+        row.update(dCT=percent(ct, row["CT"]), dCQ=percent(cq, row["CQ"]))
+        d_ct = f"{row['dCT']:+6.1f}" if row["CT"] else "     -"
+        print(
+            f"  {row['blades']:5d}  {row['theta']:5.1f} | {ct:8.5f}  {row['CT']:11.5f} {d_ct} |"
+            f" {cq:10.6f}  {row['CQ']:11.6f} {row['dCQ']:+6.1f}",
+            flush=True,
+        )
     return rows
 
 
@@ -105,32 +102,25 @@ def summary(rows):
     return result
 
 
-def plot(rows, file):
+def plot(rows, fly_at, file):
     """Measured points and computed lines: CT and CQ against pitch."""
     figure, axes = plt.subplots(1, 2, figsize=(10, 4.6), constrained_layout=True)
     styles = {3: ("o", "-", "white"), 4: ("s", "--", "black")}
-    for axis, name, label in (
-        (axes[0], "CT", "thrust coefficient CT"),
-        (axes[1], "CQ", "torque coefficient CQ"),
-    ):
-        for blades, (marker, line, fill) in styles.items():
-            chosen = [row for row in rows if row["blades"] == blades]
-            pitch = [row["theta"] for row in chosen]
+    pitches = [0.5 * i for i in range(25)]
+    for blades, (marker, line, fill) in styles.items():
+        computed = [fly_at(blades, pitch) for pitch in pitches]
+        measured = [row for row in rows if row["blades"] == blades]
+        for axis, name, values in zip(axes, ("CT", "CQ"), zip(*computed)):
+            axis.plot(pitches, values, line, color="black", label=f"{blades} blades, computed")
             axis.plot(
-                pitch,
-                [row[f"{name}_fmu"] for row in chosen],
-                line,
-                color="black",
-                label=f"{blades} blades, HelicopterRotor.fmu",
-            )
-            axis.plot(
-                pitch,
-                [row[name] for row in chosen],
+                [row["theta"] for row in measured],
+                [row[name] for row in measured],
                 marker,
                 color="black",
                 markerfacecolor=fill,
                 label=f"{blades} blades, measured",
             )
+    for axis, label in zip(axes, ("thrust coefficient CT", "torque coefficient CQ")):
         axis.set_xlabel("blade pitch, deg")
         axis.set_ylabel(label)
         axis.set_xlim(0, 12.5)
@@ -138,7 +128,7 @@ def plot(rows, file):
         axis.ticklabel_format(axis="y", style="sci", scilimits=(0, 0), useMathText=True)
         axis.grid(True, color="0.85")
     axes[0].legend(frameon=False)
-    figure.suptitle("Hover: rotors of Knight & Hefner (1937), NACA TN 626")
+    figure.suptitle("Hover: HelicopterRotor.fmu and the rotors of Knight & Hefner (1937), NACA TN 626")
     figure.savefig(file, dpi=130)
     plt.close(figure)
 
@@ -162,11 +152,18 @@ def main():
         sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
     arguments.out.mkdir(parents=True, exist_ok=True)
 
-    rows = table(arguments.fmu)
+    with tempfile.TemporaryDirectory() as folder:
+        unzipped = extract(str(arguments.fmu), unzipdir=folder)
+        description = read_model_description(unzipped)
+
+        def fly_at(blades, pitch):
+            return fly(unzipped, description, blades, pitch)
+
+        rows = table(fly_at)
+        plot(rows, fly_at, arguments.out / "knight-hefner.png")
     for name, (mean, worst) in summary(rows).items():
         print(f"mean |{name}| {mean:.1f} %, worst {worst:.1f} % (pitch {COMPARED_FROM:g} deg and above)")
     write_csv(rows, arguments.out / "knight-hefner.csv")
-    plot(rows, arguments.out / "knight-hefner.png")
     print(f"FMU:   {arguments.fmu}")
     print(f"Table: {arguments.out / 'knight-hefner.csv'}")
     print(f"Plot:  {arguments.out / 'knight-hefner.png'}")

@@ -6,9 +6,8 @@ use std::{path::Path, process::Command};
 /// Flies Knight & Hefner's rotors through their measured range of pitch; the script prints the
 /// table and writes the plot beside the FMU.
 pub fn knight_hefner(fmu: &Path, target: &Path) -> Result<(), Failure> {
-    let interpreter = python::environment(target).map_err(failed(
-        "the .fmu is made, but it cannot be flown here",
-    ))?;
+    let interpreter = python::environment(target)
+        .map_err(failed("the .fmu is made, but it cannot be flown here"))?;
     let script = python::examples().join("knight_hefner.py");
     let folder = fmu.parent().unwrap_or(Path::new("."));
     let status = Command::new(interpreter)
@@ -22,5 +21,8 @@ pub fn knight_hefner(fmu: &Path, target: &Path) -> Result<(), Failure> {
     if status.success() {
         return Ok(());
     }
-    Err(Failure(format!("{} failed ({status}); its own words stand above", script.display())))
+    Err(Failure(format!(
+        "{} failed ({status}); its own words stand above",
+        script.display()
+    )))
 }

@@ -89,6 +89,8 @@ fn target_folder() -> Result<PathBuf, Failure> {
     let program = std::env::current_exe().map_err(failed("cannot find this program's own file"))?;
     let folder = program.parent().and_then(Path::parent);
     folder.map(Path::to_path_buf).ok_or_else(|| {
-        Failure("this program lies outside of cargo's target folder; run it with `cargo run`".into())
+        Failure(
+            "this program lies outside of cargo's target folder; run it with `cargo run`".into(),
+        )
     })
 }

@@ -28,9 +28,10 @@ pub fn environment(target: &Path) -> Result<PathBuf, Failure> {
     // One process makes it, others wait for it.
     fs::create_dir_all(target).map_err(failed(format!("cannot make {}", target.display())))?;
     let lock_path = target.join("python.lock");
-    let lock = File::create(&lock_path)
-        .map_err(failed(format!("cannot make {}", lock_path.display())))?;
-    lock.lock().map_err(failed(format!("cannot lock {}", lock_path.display())))?;
+    let lock =
+        File::create(&lock_path).map_err(failed(format!("cannot make {}", lock_path.display())))?;
+    lock.lock()
+        .map_err(failed(format!("cannot lock {}", lock_path.display())))?;
     if fs::read_to_string(&stamp).is_ok_and(|found| found == wanted) && interpreter.is_file() {
         return Ok(interpreter);
     }
@@ -50,7 +51,14 @@ pub fn environment(target: &Path) -> Result<PathBuf, Failure> {
     spinner.set_message("installing FMPy and Matplotlib into it (once, about a minute) ...");
     succeed(
         Command::new(&interpreter)
-            .args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "-r"])
+            .args([
+                "-m",
+                "pip",
+                "install",
+                "--quiet",
+                "--disable-pip-version-check",
+                "-r",
+            ])
             .arg(&requirements),
         "cannot install the Python packages in fmu-examples/requirements.txt; is PyPI within reach?",
     )?;
@@ -69,9 +77,13 @@ fn system_python() -> Result<&'static str, Failure> {
         Ok(output) if output.status.success() => Ok("python3"),
         Ok(output) => {
             let version = String::from_utf8_lossy(&output.stdout).trim().to_owned();
-            Err(Failure(format!("{NEEDED}; the one on the PATH is {version}")))
+            Err(Failure(format!(
+                "{NEEDED}; the one on the PATH is {version}"
+            )))
         }
-        Err(error) => Err(Failure(format!("{NEEDED} ({error}); install it and run this again"))),
+        Err(error) => Err(Failure(format!(
+            "{NEEDED} ({error}); install it and run this again"
+        ))),
     }
 }
 
@@ -82,5 +94,8 @@ fn succeed(command: &mut Command, what: &str) -> Result<Output, Failure> {
         return Ok(output);
     }
     let words = [output.stdout.as_slice(), output.stderr.as_slice()].concat();
-    Err(Failure(format!("{what}\n{}", String::from_utf8_lossy(&words).trim())))
+    Err(Failure(format!(
+        "{what}\n{}",
+        String::from_utf8_lossy(&words).trim()
+    )))
 }

@@ -71,7 +71,13 @@ mod tests {
         ] {
             assert_eq!(path_from_uri(uri), Some(PathBuf::from(path)), "{uri}");
         }
-        for uri in ["", "/a/b", "http://x/y", "file://host-without-path", "file:///%FF"] {
+        for uri in [
+            "",
+            "/a/b",
+            "http://x/y",
+            "file://host-without-path",
+            "file:///%FF",
+        ] {
             assert_eq!(path_from_uri(uri), None, "{uri}");
         }
     }

@@ -25,7 +25,11 @@ pub enum BlockError {
     #[error("{0}; check the inputs: {1}")]
     Unsolved(SolveError, String),
     #[error("{name} would be {value}, which is not finite; check the inputs: {inputs}")]
-    NotFinite { name: &'static str, value: f64, inputs: String },
+    NotFinite {
+        name: &'static str,
+        value: f64,
+        inputs: String,
+    },
 }
 
 /// One rotor with the values of all of its variables.
@@ -139,7 +143,11 @@ impl RotorBlock {
         for (variable, value) in REALS.iter().zip(reals) {
             if variable.causality == Causality::Output && !value.is_finite() {
                 let inputs = inputs(&self.values);
-                return Err(BlockError::NotFinite { name: variable.name, value, inputs });
+                return Err(BlockError::NotFinite {
+                    name: variable.name,
+                    value,
+                    inputs,
+                });
             }
         }
         self.values.reals = reals;
@@ -175,10 +183,14 @@ impl Shaft {
 
 fn air(values: &Values) -> Result<Air, SetupError> {
     let reals = &values.reals;
-    Ok(match setup::choice(values, integer::AIR__MODEL, AirModel::from_integer)? {
-        AirModel::Isa => Air::standard(reals[real::ALTITUDE]),
-        AirModel::Constant => Air::new(reals[real::AIR__DENSITY], reals[real::AIR__TEMPERATURE]),
-    })
+    Ok(
+        match setup::choice(values, integer::AIR__MODEL, AirModel::from_integer)? {
+            AirModel::Isa => Air::standard(reals[real::ALTITUDE]),
+            AirModel::Constant => {
+                Air::new(reals[real::AIR__DENSITY], reals[real::AIR__TEMPERATURE])
+            }
+        },
+    )
 }
 
 /// Writes the outputs among the Real variables.
@@ -203,8 +215,14 @@ fn write_outputs(
     for (places, vector) in [
         ([real::FORCE_1, real::FORCE_2, real::FORCE_3], force),
         ([real::MOMENT_1, real::MOMENT_2, real::MOMENT_3], moment),
-        ([real::HUB_FORCE_1, real::HUB_FORCE_2, real::HUB_FORCE_3], hub_force),
-        ([real::HUB_MOMENT_1, real::HUB_MOMENT_2, real::HUB_MOMENT_3], hub_moment),
+        (
+            [real::HUB_FORCE_1, real::HUB_FORCE_2, real::HUB_FORCE_3],
+            hub_force,
+        ),
+        (
+            [real::HUB_MOMENT_1, real::HUB_MOMENT_2, real::HUB_MOMENT_3],
+            hub_moment,
+        ),
     ] {
         for (place, component) in places.into_iter().zip(vector.iter()) {
             reals[place] = *component;
@@ -216,7 +234,11 @@ fn write_outputs(
     let tip_speed = operation.speed * radius;
     let reference_force = air.density * PI * radius * radius * tip_speed * tip_speed;
     let per = |quantity: f64, reference: f64| {
-        if reference > 0.0 { quantity / reference } else { 0.0 }
+        if reference > 0.0 {
+            quantity / reference
+        } else {
+            0.0
+        }
     };
     let thrust_coefficient = per(thrust, reference_force);
     let torque_coefficient = per(torque, reference_force * radius);
@@ -242,7 +264,10 @@ fn write_outputs(
 
 /// The inputs as a text for errors.
 fn inputs(values: &Values) -> String {
-    let inputs = REALS.iter().zip(values.reals).filter(|(v, _)| v.causality == Causality::Input);
+    let inputs = REALS
+        .iter()
+        .zip(values.reals)
+        .filter(|(v, _)| v.causality == Causality::Input);
     let texts = inputs.map(|(v, value)| format!("{} = {value} {}", v.name, v.unit));
     texts.collect::<Vec<_>>().join(", ")
 }

@@ -24,7 +24,11 @@ pub enum SetupError {
     #[error("airfoil.file = {name:?}: {cause}")]
     Airfoil { name: String, cause: AirfoilError },
     #[error("geometry.file = {name:?}: airfoil {airfoil:?} of a station: {cause}")]
-    StationAirfoil { name: String, airfoil: String, cause: AirfoilError },
+    StationAirfoil {
+        name: String,
+        airfoil: String,
+        cause: AirfoilError,
+    },
     #[error("geometry.file = {name:?}: {cause}")]
     RotorFile { name: String, cause: RotorFileError },
     #[error("the geometry parameters make no rotor: {0}; change them or set geometry.file")]
@@ -51,15 +55,25 @@ pub fn rotor(values: &Values, resources: &Path) -> Result<(Rotor, Vec<String>), 
                     cause,
                 }
             } else {
-                SetupError::Airfoil { name: name.to_owned(), cause }
+                SetupError::Airfoil {
+                    name: name.to_owned(),
+                    cause,
+                }
             }
         })?;
-        notes.push(format!("read airfoil {:?} from {}", airfoil.name(), path.display()));
+        notes.push(format!(
+            "read airfoil {:?} from {}",
+            airfoil.name(),
+            path.display()
+        ));
         airfoils.push(airfoil);
     }
     // The range check of the table keeps the number of elements positive.
     let elements = values.integers[integer::NUMERICS__ELEMENTS].max(1) as usize;
-    Ok((Rotor::new(geometry, airfoils, models(values)?, elements), notes))
+    Ok((
+        Rotor::new(geometry, airfoils, models(values)?, elements),
+        notes,
+    ))
 }
 
 fn shape(
@@ -70,8 +84,10 @@ fn shape(
     let name = values.strings[string::GEOMETRY__FILE].as_str();
     if !name.is_empty() {
         let path = resolve(resources, "rotors", name);
-        let geometry = Geometry::read(&path)
-            .map_err(|cause| SetupError::RotorFile { name: name.to_owned(), cause })?;
+        let geometry = Geometry::read(&path).map_err(|cause| SetupError::RotorFile {
+            name: name.to_owned(),
+            cause,
+        })?;
         notes.push(format!("read the rotor's geometry from {}", path.display()));
         return Ok(geometry);
     }
@@ -84,11 +100,10 @@ fn shape(
         values.reals[real::GEOMETRY__TWIST],
     );
     geometry.pitch_reference_radius = values.reals[real::GEOMETRY__PITCH_REFERENCE_RADIUS];
-    geometry.rotation =
-        match choice(values, integer::GEOMETRY__ROTATION, Rotation::from_integer)? {
-            Rotation::CounterClockwise => geometry::Rotation::CounterClockwise,
-            Rotation::Clockwise => geometry::Rotation::Clockwise,
-        };
+    geometry.rotation = match choice(values, integer::GEOMETRY__ROTATION, Rotation::from_integer)? {
+        Rotation::CounterClockwise => geometry::Rotation::CounterClockwise,
+        Rotation::Clockwise => geometry::Rotation::Clockwise,
+    };
     geometry.check().map_err(SetupError::Geometry)?;
     Ok(geometry)
 }

@@ -10,13 +10,32 @@ pub enum ValueError {
     #[error(
         "value reference {reference} is no {kind} variable of this FMU (they go from 0 to {last}); take it from modelDescription.xml"
     )]
-    Unknown { reference: u32, kind: &'static str, last: usize },
+    Unknown {
+        reference: u32,
+        kind: &'static str,
+        last: usize,
+    },
     #[error("{name} = {value} is not a finite number; set a finite value (it keeps {kept})")]
-    NotFinite { name: &'static str, value: f64, kept: f64 },
+    NotFinite {
+        name: &'static str,
+        value: f64,
+        kept: f64,
+    },
     #[error("{name} = {value} is out of range; set a value from {min} to {max} (it keeps {kept})")]
-    OutOfRange { name: &'static str, value: String, min: String, max: String, kept: String },
+    OutOfRange {
+        name: &'static str,
+        value: String,
+        min: String,
+        max: String,
+        kept: String,
+    },
     #[error("{name} = {value} is no choice; set one of {choices} (it keeps {kept})")]
-    NoChoice { name: &'static str, value: i32, choices: String, kept: i32 },
+    NoChoice {
+        name: &'static str,
+        value: i32,
+        choices: String,
+        kept: i32,
+    },
     #[error("{name} is an output, which the rotor computes; it cannot be set")]
     Output { name: &'static str },
     #[error(
@@ -59,7 +78,11 @@ fn find<T>(
     let place = reference as usize;
     let row = table.get(place);
     row.map(|variable| (place, variable))
-        .ok_or(ValueError::Unknown { reference, kind, last: table.len().saturating_sub(1) })
+        .ok_or(ValueError::Unknown {
+            reference,
+            kind,
+            last: table.len().saturating_sub(1),
+        })
 }
 
 /// Reads the values behind `references` into `out`.
@@ -89,7 +112,10 @@ fn may_set<T>(
     match variable.causality {
         Causality::Output => Err(ValueError::Output { name }),
         Causality::Parameter if stage == Stage::Running && !variable.tunable && differs => {
-            Err(ValueError::Fixed { name, kept: kept.to_string() })
+            Err(ValueError::Fixed {
+                name,
+                kept: kept.to_string(),
+            })
         }
         _ => Ok(()),
     }
@@ -101,7 +127,13 @@ impl Values {
     }
 
     pub fn read_integers(&self, references: &[u32], out: &mut [i32]) -> Result<(), ValueError> {
-        read(&INTEGERS, "Integer or Enumeration", &self.integers, references, out)
+        read(
+            &INTEGERS,
+            "Integer or Enumeration",
+            &self.integers,
+            references,
+            out,
+        )
     }
 
     /// Place of a String variable.
@@ -122,7 +154,11 @@ impl Values {
             may_set(variable, stage, *value != kept, &kept)?;
             let name = variable.name;
             if !value.is_finite() {
-                return Err(ValueError::NotFinite { name, value: *value, kept });
+                return Err(ValueError::NotFinite {
+                    name,
+                    value: *value,
+                    kept,
+                });
             }
             if *value < variable.min || *value > variable.max {
                 let unit = |x: f64| format!("{x} {}", variable.unit).trim_end().to_owned();
@@ -208,7 +244,11 @@ mod tests {
     fn defaults_lie_in_their_own_ranges() {
         let defaults = Values::default();
         for (v, value) in REALS.iter().zip(defaults.reals) {
-            assert!(v.causality == Causality::Output || (v.min..=v.max).contains(&value), "{}", v.name);
+            assert!(
+                v.causality == Causality::Output || (v.min..=v.max).contains(&value),
+                "{}",
+                v.name
+            );
         }
         for (v, value) in INTEGERS.iter().zip(defaults.integers) {
             assert!((v.min..=v.max).contains(&value), "{}", v.name);
@@ -221,19 +261,39 @@ mod tests {
         let before = values.clone();
         let refs = [real::COLLECTIVE as u32, real::GEOMETRY__RADIUS as u32];
         for (bad, part) in [
-            (-1.0, "geometry.radius = -1 m is out of range; set a value from 0.001 to 1000 m (it keeps 0.762 m)"),
+            (
+                -1.0,
+                "geometry.radius = -1 m is out of range; set a value from 0.001 to 1000 m (it keeps 0.762 m)",
+            ),
             (f64::NAN, "geometry.radius = NaN is not a finite number"),
-            (f64::INFINITY, "geometry.radius = inf is not a finite number"),
+            (
+                f64::INFINITY,
+                "geometry.radius = inf is not a finite number",
+            ),
         ] {
-            let error = values.set_reals(Stage::Configuring, &refs, &[0.1, bad]).unwrap_err();
+            let error = values
+                .set_reals(Stage::Configuring, &refs, &[0.1, bad])
+                .unwrap_err();
             assert!(error.to_string().contains(part), "{error}");
             assert_eq!(values, before);
         }
         let error = values.set_integers(Stage::Configuring, &[integer::MODEL__INFLOW as u32], &[9]);
         let error = error.unwrap_err().to_string();
-        assert!(error.contains("model.inflow = 9 is no choice; set one of 1 (annulusClosedForm), 2 (annulus)"), "{error}");
-        let error = values.set_reals(Stage::Configuring, &[9999], &[0.0]).unwrap_err();
-        assert!(error.to_string().contains("value reference 9999 is no Real variable"), "{error}");
+        assert!(
+            error.contains(
+                "model.inflow = 9 is no choice; set one of 1 (annulusClosedForm), 2 (annulus)"
+            ),
+            "{error}"
+        );
+        let error = values
+            .set_reals(Stage::Configuring, &[9999], &[0.0])
+            .unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .contains("value reference 9999 is no Real variable"),
+            "{error}"
+        );
     }
 
     #[test]
@@ -242,12 +302,24 @@ mod tests {
         let set = |v: &mut Values, r: usize, x| v.set_reals(Stage::Running, &[r as u32], &[x]);
         assert!(set(&mut values, real::COLLECTIVE, 0.2).is_ok());
         assert!(set(&mut values, real::AIR__DENSITY, 1.0).is_ok(), "tunable");
-        assert!(set(&mut values, real::GEOMETRY__RADIUS, 0.762).is_ok(), "its own value");
+        assert!(
+            set(&mut values, real::GEOMETRY__RADIUS, 0.762).is_ok(),
+            "its own value"
+        );
         let error = set(&mut values, real::GEOMETRY__RADIUS, 0.8).unwrap_err();
-        assert!(error.to_string().contains("geometry.radius is a fixed parameter and keeps 0.762"));
+        assert!(
+            error
+                .to_string()
+                .contains("geometry.radius is a fixed parameter and keeps 0.762")
+        );
         let error = set(&mut values, real::THRUST, 1.0).unwrap_err();
         assert_eq!(error, ValueError::Output { name: "thrust" });
         let error = values.set_strings(Stage::Running, &[string::AIRFOIL__FILE as u32], &["x"]);
-        assert!(error.unwrap_err().to_string().contains("airfoil.file is a fixed parameter"));
+        assert!(
+            error
+                .unwrap_err()
+                .to_string()
+                .contains("airfoil.file is a fixed parameter")
+        );
     }
 }

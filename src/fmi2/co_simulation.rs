@@ -75,7 +75,13 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     _value: *const fmi2Real,
 ) -> fmi2Status {
     // SAFETY: passed on from the caller.
-    unsafe { not_offered(c, Function::fmi2SetRealInputDerivatives, "canInterpolateInputs = false") }
+    unsafe {
+        not_offered(
+            c,
+            Function::fmi2SetRealInputDerivatives,
+            "canInterpolateInputs = false",
+        )
+    }
 }
 
 /// # Safety
@@ -90,7 +96,11 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
 ) -> fmi2Status {
     // SAFETY: passed on from the caller.
     unsafe {
-        not_offered(c, Function::fmi2GetRealOutputDerivatives, "maxOutputDerivativeOrder = 0")
+        not_offered(
+            c,
+            Function::fmi2GetRealOutputDerivatives,
+            "maxOutputDerivativeOrder = 0",
+        )
     }
 }
 

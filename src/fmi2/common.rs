@@ -33,7 +33,9 @@ pub unsafe fn elements<'a, T>(
         return Ok(&[]);
     }
     if pointer.is_null() {
-        return Err(Message::Error(format!("{what} is a null pointer, but {count} are announced")));
+        return Err(Message::Error(format!(
+            "{what} is a null pointer, but {count} are announced"
+        )));
     }
     // SAFETY: by the contract above.
     Ok(unsafe { slice::from_raw_parts(pointer, count) })
@@ -52,7 +54,9 @@ pub unsafe fn elements_mut<'a, T>(
         return Ok(&mut []);
     }
     if pointer.is_null() {
-        return Err(Message::Error(format!("{what} is a null pointer, but {count} are announced")));
+        return Err(Message::Error(format!(
+            "{what} is a null pointer, but {count} are announced"
+        )));
     }
     // SAFETY: by the contract above.
     Ok(unsafe { slice::from_raw_parts_mut(pointer, count) })
@@ -64,11 +68,15 @@ pub unsafe fn elements_mut<'a, T>(
 /// `text` is null or a C string that lives as long as the answer.
 unsafe fn text<'a>(text: fmi2String, what: &str) -> Result<&'a str, Message> {
     if text.is_null() {
-        return Err(Message::Error(format!("{what} is a null pointer; pass a string")));
+        return Err(Message::Error(format!(
+            "{what} is a null pointer; pass a string"
+        )));
     }
     // SAFETY: by the contract above.
     let bytes = unsafe { CStr::from_ptr(text) };
-    bytes.to_str().map_err(|_| Message::Error(format!("{what} is no valid UTF-8; pass UTF-8")))
+    bytes
+        .to_str()
+        .map_err(|_| Message::Error(format!("{what} is no valid UTF-8; pass UTF-8")))
 }
 
 // ------------------------------------------------------------------ version and logging
@@ -137,7 +145,9 @@ pub unsafe extern "C" fn fmi2Instantiate(
     let body = || {
         // SAFETY: passed on from the caller.
         let callbacks = unsafe { functions.as_ref() };
-        let name = unsafe { text(instanceName, "instanceName") }.ok().filter(|n| !n.is_empty());
+        let name = unsafe { text(instanceName, "instanceName") }
+            .ok()
+            .filter(|n| !n.is_empty());
         let logger = Logger {
             callback: callbacks.and_then(|f| f.logger),
             environment: callbacks.map_or(ptr::null_mut(), |f| f.componentEnvironment),
@@ -176,7 +186,9 @@ fn check_identity(kind: fmi2Enumeration, guid: Result<&str, Message>) -> Result<
         ));
     }
     if kind != FMI2_CO_SIMULATION {
-        return Err("this FMU offers Co-Simulation only; instantiate it with fmi2CoSimulation".into());
+        return Err(
+            "this FMU offers Co-Simulation only; instantiate it with fmi2CoSimulation".into(),
+        );
     }
     Ok(())
 }
@@ -208,7 +220,9 @@ fn library_file() -> Option<PathBuf> {
         }
         CStr::from_ptr(info.dli_fname)
     };
-    Path::new(std::ffi::OsStr::from_bytes(name.to_bytes())).canonicalize().ok()
+    Path::new(std::ffi::OsStr::from_bytes(name.to_bytes()))
+        .canonicalize()
+        .ok()
 }
 
 #[cfg(not(unix))]
@@ -252,7 +266,9 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
 ) -> fmi2Status {
     let body = |instance: &mut Instance| {
         if !startTime.is_finite() {
-            return refuse(format!("startTime = {startTime} is not finite; pass a finite time"));
+            return refuse(format!(
+                "startTime = {startTime} is not finite; pass a finite time"
+            ));
         }
         let stop_time = (stopTimeDefined != FMI2_FALSE).then_some(stopTime);
         // Written so that NaN is refused as well.
@@ -263,7 +279,10 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
                 "stopTime = {stop} s lies before startTime = {startTime} s; pass a later one or none"
             ));
         }
-        instance.experiment = Experiment { time: startTime, stop_time };
+        instance.experiment = Experiment {
+            time: startTime,
+            stop_time,
+        };
         Ok(())
     };
     // SAFETY: passed on from the caller.
@@ -486,7 +505,13 @@ fn no_booleans(count: usize) -> Outcome {
 /// As `call`.
 pub unsafe fn not_offered(c: fmi2Component, function: Function, flag: &str) -> fmi2Status {
     // SAFETY: passed on from the caller.
-    unsafe { call(c, function, |_| refuse(format!("not offered by this FMU: modelDescription.xml says {flag}"))) }
+    unsafe {
+        call(c, function, |_| {
+            refuse(format!(
+                "not offered by this FMU: modelDescription.xml says {flag}"
+            ))
+        })
+    }
 }
 
 const NO_STATE: &str = "canGetAndSetFMUstate = false";
@@ -495,7 +520,10 @@ const NO_SERIALIZATION: &str = "canSerializeFMUstate = false";
 /// # Safety
 /// As in the standard.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, _state: *mut fmi2FMUstate) -> fmi2Status {
+pub unsafe extern "C" fn fmi2GetFMUstate(
+    c: fmi2Component,
+    _state: *mut fmi2FMUstate,
+) -> fmi2Status {
     // SAFETY: passed on from the caller.
     unsafe { not_offered(c, Function::fmi2GetFMUstate, NO_STATE) }
 }
@@ -511,7 +539,10 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, _state: fmi2FMUstate)
 /// # Safety
 /// As in the standard.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2FreeFMUstate(c: fmi2Component, _state: *mut fmi2FMUstate) -> fmi2Status {
+pub unsafe extern "C" fn fmi2FreeFMUstate(
+    c: fmi2Component,
+    _state: *mut fmi2FMUstate,
+) -> fmi2Status {
     // SAFETY: passed on from the caller.
     unsafe { not_offered(c, Function::fmi2FreeFMUstate, NO_STATE) }
 }

@@ -51,7 +51,11 @@ pub fn refuse(text: String) -> Outcome {
 impl Instance {
     /// Outputs that are read in Initialization Mode belong to what was set before.
     pub fn refresh_while_initializing(&mut self) -> Result<(), BlockError> {
-        if self.state == INITIALIZATION_MODE { self.block.update() } else { Ok(()) }
+        if self.state == INITIALIZATION_MODE {
+            self.block.update()
+        } else {
+            Ok(())
+        }
     }
 }
 
@@ -104,7 +108,11 @@ pub unsafe fn call(
 
 fn prefixed(function: Function, text: &str) -> String {
     let name = function.name();
-    if text.starts_with(name) { text.to_owned() } else { format!("{name}: {text}") }
+    if text.starts_with(name) {
+        text.to_owned()
+    } else {
+        format!("{name}: {text}")
+    }
 }
 
 /// What a caught panic says.

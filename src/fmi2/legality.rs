@@ -18,16 +18,11 @@ pub const STEP_CANCELED: States = 1 << 6;
 pub const TERMINATED: States = 1 << 7;
 
 const NEVER: States = 0;
-const INSTANCE_AT_REST: States = INSTANTIATED
-    | INITIALIZATION_MODE
-    | STEP_COMPLETE
-    | STEP_FAILED
-    | STEP_CANCELED
-    | TERMINATED;
+const INSTANCE_AT_REST: States =
+    INSTANTIATED | INITIALIZATION_MODE | STEP_COMPLETE | STEP_FAILED | STEP_CANCELED | TERMINATED;
 const INSTANCE: States = INSTANCE_AT_REST | STEP_IN_PROGRESS;
 const ANYWHERE: States = START_AND_END | INSTANCE;
-const READ: States =
-    INITIALIZATION_MODE | STEP_COMPLETE | STEP_FAILED | STEP_CANCELED | TERMINATED;
+const READ: States = INITIALIZATION_MODE | STEP_COMPLETE | STEP_FAILED | STEP_CANCELED | TERMINATED;
 const WRITE: States = INSTANTIATED | INITIALIZATION_MODE | STEP_COMPLETE;
 const STATUS: States = STEP_COMPLETE | STEP_IN_PROGRESS | STEP_FAILED | TERMINATED;
 
@@ -101,7 +96,10 @@ functions! {
 
 impl Function {
     fn states(self) -> States {
-        TABLE.iter().find(|(function, _)| *function == self).map_or(NEVER, |(_, states)| *states)
+        TABLE
+            .iter()
+            .find(|(function, _)| *function == self)
+            .map_or(NEVER, |(_, states)| *states)
     }
 
     /// Whether the function may be called in a state; if not, a sentence with the remedy.
@@ -136,8 +134,11 @@ fn names(states: States) -> String {
         (STEP_CANCELED, "stepCanceled"),
         (TERMINATED, "terminated"),
     ];
-    let names: Vec<&str> =
-        all.iter().filter(|(bit, _)| states & bit != 0).map(|(_, name)| *name).collect();
+    let names: Vec<&str> = all
+        .iter()
+        .filter(|(bit, _)| states & bit != 0)
+        .map(|(_, name)| *name)
+        .collect();
     names.join(", ")
 }
 
@@ -160,6 +161,11 @@ mod tests {
             error,
             "fmi2DoStep must not be called in the state instantiated; it may be called in stepComplete"
         );
-        assert!(Function::fmi2SetTime.check(STEP_COMPLETE).unwrap_err().contains("Model Exchange"));
+        assert!(
+            Function::fmi2SetTime
+                .check(STEP_COMPLETE)
+                .unwrap_err()
+                .contains("Model Exchange")
+        );
     }
 }

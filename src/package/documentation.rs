@@ -11,8 +11,12 @@ pub fn page(template: &[u8]) -> Result<String, Failure> {
     let text = String::from_utf8_lossy(template);
     for place in [PLACE, VERSION_PLACE] {
         if !text.contains(place) {
-            return Err(Failure(format!("documentation/index.html has no place `{place}`")));
+            return Err(Failure(format!(
+                "documentation/index.html has no place `{place}`"
+            )));
         }
     }
-    Ok(text.replace(PLACE, VARIABLES).replace(VERSION_PLACE, env!("CARGO_PKG_VERSION")))
+    Ok(text
+        .replace(PLACE, VARIABLES)
+        .replace(VERSION_PLACE, env!("CARGO_PKG_VERSION")))
 }

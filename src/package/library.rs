@@ -25,17 +25,28 @@ pub fn read() -> Result<(String, Vec<u8>), Failure> {
     let beside = program.with_file_name(&name);
     let in_deps = program.with_file_name("deps").join(&name);
     let age = |path: &std::path::PathBuf| fs::metadata(path).and_then(|m| m.modified()).ok();
-    let newest = [beside, in_deps].into_iter().filter(|p| p.is_file()).max_by_key(age);
+    let newest = [beside, in_deps]
+        .into_iter()
+        .filter(|p| p.is_file())
+        .max_by_key(age);
     let path = newest.ok_or_else(|| {
-        Failure(format!("{name} does not lie beside {}; run `cargo build`", program.display()))
+        Failure(format!(
+            "{name} does not lie beside {}; run `cargo build`",
+            program.display()
+        ))
     })?;
-    let content =
-        fs::read(&path).map_err(failed(format!("cannot read {}", path.display())))?;
-    if !content.windows(GUID.len()).any(|window| window == GUID.as_bytes()) {
+    let content = fs::read(&path).map_err(failed(format!("cannot read {}", path.display())))?;
+    if !content
+        .windows(GUID.len())
+        .any(|window| window == GUID.as_bytes())
+    {
         return Err(Failure(format!(
             "{} was built from another modelDescription.xml; run `cargo build` again",
             path.display()
         )));
     }
-    Ok((format!("binaries/{PLATFORM}/{MODEL_IDENTIFIER}{DLL_SUFFIX}"), content))
+    Ok((
+        format!("binaries/{PLATFORM}/{MODEL_IDENTIFIER}{DLL_SUFFIX}"),
+        content,
+    ))
 }

@@ -12,8 +12,7 @@ use std::{
 };
 use zip::{DateTime, ZipWriter, write::SimpleFileOptions};
 
-const MODEL_DESCRIPTION: &[u8] =
-    include_bytes!(concat!(env!("OUT_DIR"), "/modelDescription.xml"));
+const MODEL_DESCRIPTION: &[u8] = include_bytes!(concat!(env!("OUT_DIR"), "/modelDescription.xml"));
 
 /// The FMU's face, in the source tree that this program was built from.
 fn sources() -> PathBuf {
@@ -22,13 +21,22 @@ fn sources() -> PathBuf {
 
 /// Writes the .fmu; `file` appears whole or not at all.
 pub fn write(file: &Path) -> Result<(), Failure> {
-    let folder = file.parent().filter(|f| !f.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let folder = file
+        .parent()
+        .filter(|f| !f.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
     fs::create_dir_all(folder).map_err(failed(format!("cannot make {}", folder.display())))?;
     let name = file.file_name().ok_or_else(|| {
-        Failure(format!("{} names no file; give a name such as HelicopterRotor.fmu", file.display()))
+        Failure(format!(
+            "{} names no file; give a name such as HelicopterRotor.fmu",
+            file.display()
+        ))
     })?;
-    let temporary =
-        folder.join(format!(".{}.{}.tmp", name.to_string_lossy(), std::process::id()));
+    let temporary = folder.join(format!(
+        ".{}.{}.tmp",
+        name.to_string_lossy(),
+        std::process::id()
+    ));
     let written = File::create(&temporary)
         .map_err(failed(format!("cannot write {}", temporary.display())))
         .and_then(|out| archive(out))
@@ -57,13 +65,26 @@ fn archive(out: impl Write + Seek) -> Result<(), Failure> {
     add("modelDescription.xml", MODEL_DESCRIPTION)?;
     let (binary, content) = library::read()?;
     add(&binary, &content)?;
-    add("documentation/index.html", documentation::page(&read("documentation/index.html")?)?.as_bytes())?;
-    add("documentation/diagram.svg", &read("documentation/diagram.svg")?)?;
+    add(
+        "documentation/index.html",
+        documentation::page(&read("documentation/index.html")?)?.as_bytes(),
+    )?;
+    add(
+        "documentation/diagram.svg",
+        &read("documentation/diagram.svg")?,
+    )?;
     add("model.png", &read("model.png")?)?;
     for folder in ["licenses", "resources"] {
-        let inside = if folder == "licenses" { "documentation/licenses" } else { folder };
+        let inside = if folder == "licenses" {
+            "documentation/licenses"
+        } else {
+            folder
+        };
         for relative in files_below(&sources().join(folder))? {
-            add(&format!("{inside}/{relative}"), &read(&format!("{folder}/{relative}"))?)?;
+            add(
+                &format!("{inside}/{relative}"),
+                &read(&format!("{folder}/{relative}"))?,
+            )?;
         }
     }
     zip.finish().map_err(failed("cannot finish the archive"))?;
@@ -83,7 +104,11 @@ fn files_below(folder: &Path) -> Result<Vec<String>, Failure> {
         let entry = entry.map_err(failed(cannot()))?;
         let name = entry.file_name().to_string_lossy().into_owned();
         if entry.path().is_dir() {
-            names.extend(files_below(&entry.path())?.iter().map(|f| format!("{name}/{f}")));
+            names.extend(
+                files_below(&entry.path())?
+                    .iter()
+                    .map(|f| format!("{name}/{f}")),
+            );
         } else if !name.starts_with('.') {
             names.push(name);
         }

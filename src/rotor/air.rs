@@ -72,8 +72,14 @@ mod tests {
         ] {
             let geometric = 6_356_766.0 * geopotential / (6_356_766.0 - geopotential);
             let air = Air::standard(geometric);
-            assert!((air.density / density - 1.0).abs() < 1e-4, "{geopotential} m: {air:?}");
-            assert!((air.speed_of_sound - speed_of_sound).abs() < 0.01, "{geopotential} m: {air:?}");
+            assert!(
+                (air.density / density - 1.0).abs() < 1e-4,
+                "{geopotential} m: {air:?}"
+            );
+            assert!(
+                (air.speed_of_sound - speed_of_sound).abs() < 0.01,
+                "{geopotential} m: {air:?}"
+            );
         }
         // Table value of the viscosity at sea level.
         assert!((Air::standard(0.0).viscosity / 1.7894e-5 - 1.0).abs() < 1e-4);

@@ -66,7 +66,10 @@ mod tests {
             (KarmanTsien, beta + 0.25 / (1.0 + beta) * 0.3),
             (Laitone, beta + 0.25 * 1.05 / (2.0 * beta) * 0.6),
         ] {
-            assert!((rule.correct(0.6, 0.5) - 0.6 / denominator).abs() < 1e-15, "{rule:?}");
+            assert!(
+                (rule.correct(0.6, 0.5) - 0.6 / denominator).abs() < 1e-15,
+                "{rule:?}"
+            );
         }
     }
 

@@ -83,7 +83,12 @@ impl Rotor {
             .radius
             .iter()
             .map(|r| {
-                models.tip_loss.lifting_share(r - half, r + half, geometry.radius, geometry.tip_chord)
+                models.tip_loss.lifting_share(
+                    r - half,
+                    r + half,
+                    geometry.radius,
+                    geometry.tip_chord,
+                )
             })
             .collect();
         Self {
@@ -167,7 +172,9 @@ impl Rotor {
     fn is_stalled(&self, annulus: &Annulus, load: &Load) -> bool {
         let flow = annulus.similarity(load.speed);
         let limit = |side: fn((f64, f64)) -> f64| {
-            annulus.section.mixed(|airfoil| side(airfoil.stall_angles(flow)))
+            annulus
+                .section
+                .mixed(|airfoil| side(airfoil.stall_angles(flow)))
         };
         let alpha = airfoil::wrapped(load.angle_of_attack);
         load.speed > 0.0 && (alpha < limit(|s| s.0) || alpha > limit(|s| s.1))

@@ -37,7 +37,10 @@ pub fn bracketed(
     last: End,
     tolerance: f64,
 ) -> Result<f64, RootError> {
-    if ![first.at, first.residual, last.at, last.residual].iter().all(|x| x.is_finite()) {
+    if ![first.at, first.residual, last.at, last.residual]
+        .iter()
+        .all(|x| x.is_finite())
+    {
         return Err(RootError::NotFinite);
     }
     if first.residual == 0.0 || first.at == last.at {
@@ -58,7 +61,10 @@ pub fn bracketed(
     let mut part = 0.5;
     for step in 0..2 * bisections {
         let at = new.at + part * (other.at - new.at);
-        let next = End { at, residual: residual(at) };
+        let next = End {
+            at,
+            residual: residual(at),
+        };
         if !next.residual.is_finite() {
             return Err(RootError::NotFinite);
         }
@@ -69,12 +75,20 @@ pub fn bracketed(
             (old, other) = (other, new);
         }
         new = next;
-        let best = if new.residual.abs() < other.residual.abs() { new } else { other };
+        let best = if new.residual.abs() < other.residual.abs() {
+            new
+        } else {
+            other
+        };
         let span = (other.at - new.at).abs();
         if best.residual == 0.0 || span <= 2.0 * tolerance {
             return Ok(best.at);
         }
-        part = if step < bisections { interpolation(new, other, old) } else { 0.5 };
+        part = if step < bisections {
+            interpolation(new, other, old)
+        } else {
+            0.5
+        };
         let margin = tolerance / span;
         part = part.clamp(margin, 1.0 - margin);
     }
@@ -105,7 +119,10 @@ mod tests {
             count += 1;
             f(x)
         };
-        let end = |at| End { at, residual: f(at) };
+        let end = |at| End {
+            at,
+            residual: f(at),
+        };
         let x = bracketed(counting, end(a), end(b), 1e-13).unwrap();
         (x, count)
     }
@@ -127,21 +144,52 @@ mod tests {
     fn an_end_at_which_only_the_sign_is_known_is_no_root() {
         // sin(x)(x - 1) vanishes at pi too, but changes its sign at 1.
         let residual = |x: f64| libm::sin(x) * (x - 1.0);
-        let first = End { at: 0.5, residual: residual(0.5) };
-        let last = End { at: core::f64::consts::PI, residual: 1.0 };
+        let first = End {
+            at: 0.5,
+            residual: residual(0.5),
+        };
+        let last = End {
+            at: core::f64::consts::PI,
+            residual: 1.0,
+        };
         let x = bracketed(residual, first, last, 1e-13).unwrap();
         assert!((x - 1.0).abs() < 2e-13, "{x}");
     }
 
     #[test]
     fn ends_of_one_sign_and_residuals_that_are_no_numbers_are_errors() {
-        let first = End { at: 0.0, residual: -1.0 };
-        let last = End { at: 1.0, residual: 1.0 };
-        assert_eq!(bracketed(|_| f64::NAN, first, last, 1e-13), Err(RootError::NotFinite));
-        assert_eq!(bracketed(|x| x, first, first, 1e-13), Ok(0.0), "an empty bracket is its end");
-        let same = End { residual: -2.0, ..last };
-        assert_eq!(bracketed(|x| x, first, same, 1e-13), Err(RootError::NoSignChange));
-        let nowhere = End { at: f64::NAN, residual: 1.0 };
-        assert_eq!(bracketed(|x| x - 0.5, first, nowhere, 1e-13), Err(RootError::NotFinite));
+        let first = End {
+            at: 0.0,
+            residual: -1.0,
+        };
+        let last = End {
+            at: 1.0,
+            residual: 1.0,
+        };
+        assert_eq!(
+            bracketed(|_| f64::NAN, first, last, 1e-13),
+            Err(RootError::NotFinite)
+        );
+        assert_eq!(
+            bracketed(|x| x, first, first, 1e-13),
+            Ok(0.0),
+            "an empty bracket is its end"
+        );
+        let same = End {
+            residual: -2.0,
+            ..last
+        };
+        assert_eq!(
+            bracketed(|x| x, first, same, 1e-13),
+            Err(RootError::NoSignChange)
+        );
+        let nowhere = End {
+            at: f64::NAN,
+            residual: 1.0,
+        };
+        assert_eq!(
+            bracketed(|x| x - 0.5, first, nowhere, 1e-13),
+            Err(RootError::NotFinite)
+        );
     }
 }

@@ -23,8 +23,8 @@ impl TipLoss {
         if self != Self::Prandtl || sin_inflow.value() == 0.0 {
             return S::constant(1.0);
         }
-        let exponent = S::constant(0.5 * blades * (1.0 - radius_ratio) / radius_ratio)
-            / sin_inflow.abs();
+        let exponent =
+            S::constant(0.5 * blades * (1.0 - radius_ratio) / radius_ratio) / sin_inflow.abs();
         (-exponent).exp().acos() * FRAC_2_PI
     }
 

@@ -24,7 +24,11 @@ struct Reader<'a> {
 
 /// Reads the text of a C81 file; `file` is its name for errors.
 pub fn parse(text: &str, file: &str) -> Result<Airfoil, AirfoilError> {
-    let mut reader = Reader { lines: text.lines().collect(), next: 0, file };
+    let mut reader = Reader {
+        lines: text.lines().collect(),
+        next: 0,
+        file,
+    };
     let header = reader.line("the header")?;
     let name: String = header.chars().take(30).collect();
     let count = |index: usize| {
@@ -42,22 +46,34 @@ pub fn parse(text: &str, file: &str) -> Result<Airfoil, AirfoilError> {
     let (drag_machs, drag_angles) = (count(2)?, count(3)?);
     let lift = reader.table("lift", lift_machs, lift_angles)?;
     let drag = reader.table("drag", drag_machs, drag_angles)?;
-    Ok(Airfoil { name: name.trim().to_owned(), lift, drag })
+    Ok(Airfoil {
+        name: name.trim().to_owned(),
+        lift,
+        drag,
+    })
 }
 
 impl<'a> Reader<'a> {
     fn line(&mut self, wanted: &str) -> Result<&'a str, AirfoilError> {
-        let line = self.lines.get(self.next).ok_or_else(|| AirfoilError::Malformed {
-            file: self.file.to_owned(),
-            line: self.lines.len().max(1),
-            problem: format!("the file ends before {wanted}"),
-        })?;
+        let line = self
+            .lines
+            .get(self.next)
+            .ok_or_else(|| AirfoilError::Malformed {
+                file: self.file.to_owned(),
+                line: self.lines.len().max(1),
+                problem: format!("the file ends before {wanted}"),
+            })?;
         self.next += 1;
         Ok(line)
     }
 
     fn field_error(&self, line: usize, column: usize, problem: String) -> AirfoilError {
-        AirfoilError::MalformedField { file: self.file.to_owned(), line, column, problem }
+        AirfoilError::MalformedField {
+            file: self.file.to_owned(),
+            line,
+            column,
+            problem,
+        }
     }
 
     /// The number in the field that begins at character `column` (from 0) of the current line.
@@ -68,13 +84,21 @@ impl<'a> Reader<'a> {
             self.field_error(
                 self.next,
                 column + 1,
-                format!("{what} is expected in these seven columns, not `{}`", field.trim()),
+                format!(
+                    "{what} is expected in these seven columns, not `{}`",
+                    field.trim()
+                ),
             )
         })
     }
 
     /// `count` values, nine a line from column 8 on.
-    fn values(&mut self, mut line: &'a str, count: usize, what: &str) -> Result<Vec<f64>, AirfoilError> {
+    fn values(
+        &mut self,
+        mut line: &'a str,
+        count: usize,
+        what: &str,
+    ) -> Result<Vec<f64>, AirfoilError> {
         let mut values = Vec::with_capacity(count);
         for i in 0..count {
             let place = i % VALUES_PER_LINE;
@@ -125,7 +149,10 @@ impl<'a> Reader<'a> {
             }
         }
         let curves = columns.iter().map(|points| Curve::from_degrees(points));
-        Ok(Table::new(Axis::Mach, numbers.into_iter().zip(curves).collect()))
+        Ok(Table::new(
+            Axis::Mach,
+            numbers.into_iter().zip(curves).collect(),
+        ))
     }
 }
 
@@ -154,7 +181,14 @@ Test section                   2 4 1 3 1 2
             compressibility: Compressibility::PrandtlGlauert,
             drag_reynolds_exponent: 0.2,
         };
-        airfoil.lift_coefficient(&model, 0.0, Similarity { reynolds: 1e6, mach })
+        airfoil.lift_coefficient(
+            &model,
+            0.0,
+            Similarity {
+                reynolds: 1e6,
+                mach,
+            },
+        )
     }
 
     #[test]
@@ -193,16 +227,39 @@ Test section                   2 4 1 3 1 2
     fn errors_name_file_line_column_and_problem() {
         for (from, to, place, part) in [
             (" 2 4 1 3", " x 4 1 3", "line 1, column 31", "no count"),
-            ("   0.80", "   o.80", "line 2, column 15", "a Mach number of the lift table"),
+            (
+                "   0.80",
+                "   o.80",
+                "line 2, column 15",
+                "a Mach number of the lift table",
+            ),
             ("   0.80", "   0.00", "line 2, column 8", "must increase"),
-            ("   0.00   0.10", "   0.00   .1.0", "line 4, column 8", "a value of the lift table"),
-            ("-180.00   0.00", "-170.00   0.00", "line 3, column 1", "from -180 to 180"),
-            ("   0.00   0.01", "   0.00  -0.01", "line 9, column 8", "must not be negative"),
+            (
+                "   0.00   0.10",
+                "   0.00   .1.0",
+                "line 4, column 8",
+                "a value of the lift table",
+            ),
+            (
+                "-180.00   0.00",
+                "-170.00   0.00",
+                "line 3, column 1",
+                "from -180 to 180",
+            ),
+            (
+                "   0.00   0.01",
+                "   0.00  -0.01",
+                "line 9, column 8",
+                "must not be negative",
+            ),
             (" 180.00   0.03\n", "", "line 9", "the file ends before"),
         ] {
             let text = GOOD.replacen(from, to, 1);
             let error = parse(&text, "bad.c81").unwrap_err().to_string();
-            assert!(error.contains(place) && error.contains(part), "{to:?}: {error}");
+            assert!(
+                error.contains(place) && error.contains(part),
+                "{to:?}: {error}"
+            );
         }
     }
 }

@@ -22,9 +22,18 @@ pub enum AirfoilError {
     #[error("airfoil file {file}: cannot be read ({reason}); give a file that exists and is text")]
     Unreadable { file: String, reason: String },
     #[error("airfoil file {file}, line {line}: {problem}")]
-    Malformed { file: String, line: usize, problem: String },
+    Malformed {
+        file: String,
+        line: usize,
+        problem: String,
+    },
     #[error("airfoil file {file}, line {line}, column {column}: {problem}")]
-    MalformedField { file: String, line: usize, column: usize, problem: String },
+    MalformedField {
+        file: String,
+        line: usize,
+        column: usize,
+        problem: String,
+    },
 }
 
 /// Where a section's lift comes from.
@@ -67,8 +76,14 @@ impl Airfoil {
         let text = fs::read(path)
             .map_err(|e| e.to_string())
             .and_then(|bytes| String::from_utf8(bytes).map_err(|e| e.to_string()))
-            .map_err(|reason| AirfoilError::Unreadable { file: file.clone(), reason })?;
-        if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("polar")) {
+            .map_err(|reason| AirfoilError::Unreadable {
+                file: file.clone(),
+                reason,
+            })?;
+        if path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("polar"))
+        {
             polar::parse(&text, &file)
         } else {
             c81::parse(&text, &file)
@@ -88,7 +103,9 @@ impl Airfoil {
         flow: Similarity<S>,
     ) -> S {
         match model.lift {
-            Lift::TwoPi => model.compressibility.correct(alpha.sin() * (2.0 * PI), flow.mach),
+            Lift::TwoPi => model
+                .compressibility
+                .correct(alpha.sin() * (2.0 * PI), flow.mach),
             Lift::Table => {
                 let lift = self.lift.value(alpha, flow);
                 if self.lift.resolves_mach() {
@@ -124,9 +141,16 @@ impl Airfoil {
         }
         let ratio = S::constant(nearest) / reynolds;
         let factor = (ratio.ln() * model.drag_reynolds_exponent).exp();
-        let plain = Similarity { reynolds: flow.reynolds.value(), mach: flow.mach.value() };
+        let plain = Similarity {
+            reynolds: flow.reynolds.value(),
+            mach: flow.mach.value(),
+        };
         let (negative, positive) = self.lift.stall_angles(plain);
-        let stall = if wrapped(alpha).value() < 0.0 { negative } else { positive };
+        let stall = if wrapped(alpha).value() < 0.0 {
+            negative
+        } else {
+            positive
+        };
         drag + drag.at_most(self.drag.value(stall, plain)) * (factor - 1.0)
     }
 
@@ -168,7 +192,10 @@ mod tests {
             compressibility: Compressibility::None,
             drag_reynolds_exponent: exponent,
         };
-        let flow = Similarity { reynolds, mach: 0.0 };
+        let flow = Similarity {
+            reynolds,
+            mach: 0.0,
+        };
         airfoil.drag_coefficient(&model, alpha_deg.to_radians(), flow)
     }
 
@@ -180,6 +207,9 @@ mod tests {
         assert!((drag(0.0, 1e7, 0.2) / (0.01 * 0.01_f64.powf(0.2)) - 1.0).abs() < 1e-14);
         assert_eq!(drag(0.0, 10.0, 0.2), drag(0.0, 1e4, 0.2), "the floor");
         let added = drag(90.0, 2e4, 0.2) - 2.0;
-        assert!((added / (0.04 * (5.0_f64.powf(0.2) - 1.0)) - 1.0).abs() < 1e-12, "{added}");
+        assert!(
+            (added / (0.04 * (5.0_f64.powf(0.2) - 1.0)) - 1.0).abs() < 1e-12,
+            "{added}"
+        );
     }
 }

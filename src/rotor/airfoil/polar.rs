@@ -34,9 +34,17 @@ pub fn parse(text: &str, file: &str) -> Result<Airfoil, AirfoilError> {
     match lines.next() {
         Some((_, "polar 1")) => {}
         Some((line, found)) => {
-            return Err(fail(line, format!("the file must begin with `polar 1`, not `{found}`")));
+            return Err(fail(
+                line,
+                format!("the file must begin with `polar 1`, not `{found}`"),
+            ));
         }
-        None => return Err(fail(1, "the file is empty; it must begin with `polar 1`".into())),
+        None => {
+            return Err(fail(
+                1,
+                "the file is empty; it must begin with `polar 1`".into(),
+            ));
+        }
     }
 
     let mut name = String::new();
@@ -44,21 +52,28 @@ pub fn parse(text: &str, file: &str) -> Result<Airfoil, AirfoilError> {
     let mut last_line = 1;
     for (line, content) in lines {
         last_line = line;
-        let (word, rest) = content.split_once(char::is_whitespace).unwrap_or((content, ""));
+        let (word, rest) = content
+            .split_once(char::is_whitespace)
+            .unwrap_or((content, ""));
         match word {
             "name" => name = rest.trim().to_owned(),
             "reynolds" => {
                 close(blocks.last()).map_err(|problem| fail(line, problem))?;
                 let reynolds = number(rest).map_err(|problem| fail(line, problem))?;
                 if reynolds < 1.0 {
-                    return Err(fail(line, format!("Reynolds number {reynolds} must be 1 or more")));
+                    return Err(fail(
+                        line,
+                        format!("Reynolds number {reynolds} must be 1 or more"),
+                    ));
                 }
                 if let Some((previous, _)) = blocks.last()
                     && reynolds <= *previous
                 {
                     return Err(fail(
                         line,
-                        format!("Reynolds number {reynolds} must be above the block before ({previous})"),
+                        format!(
+                            "Reynolds number {reynolds} must be above the block before ({previous})"
+                        ),
                     ));
                 }
                 blocks.push((reynolds, Vec::new()));
@@ -67,7 +82,9 @@ pub fn parse(text: &str, file: &str) -> Result<Airfoil, AirfoilError> {
                 let Some((_, rows)) = blocks.last_mut() else {
                     return Err(fail(
                         line,
-                        format!("`{word}` before the first `reynolds` line; only `name` may stand there"),
+                        format!(
+                            "`{word}` before the first `reynolds` line; only `name` may stand there"
+                        ),
                     ));
                 };
                 let next = row(content, rows.last()).map_err(|problem| fail(line, problem))?;
@@ -87,7 +104,11 @@ pub fn parse(text: &str, file: &str) -> Result<Airfoil, AirfoilError> {
         });
         Table::new(Axis::Reynolds, layers.collect())
     };
-    Ok(Airfoil { lift: table(|r| r.1), drag: table(|r| r.2), name })
+    Ok(Airfoil {
+        lift: table(|r| r.1),
+        drag: table(|r| r.2),
+        name,
+    })
 }
 
 fn row(content: &str, previous: Option<&Row>) -> Result<Row, String> {
@@ -108,12 +129,12 @@ fn row(content: &str, previous: Option<&Row>) -> Result<Row, String> {
         return Err(format!("drag coefficient {drag} must not be negative"));
     }
     match previous {
-        None if alpha != -180.0 => {
-            Err(format!("the first angle of a block must be -180 deg, not {alpha}"))
-        }
-        Some((before, ..)) if alpha <= *before => {
-            Err(format!("angle {alpha} deg must be above the row before ({before})"))
-        }
+        None if alpha != -180.0 => Err(format!(
+            "the first angle of a block must be -180 deg, not {alpha}"
+        )),
+        Some((before, ..)) if alpha <= *before => Err(format!(
+            "angle {alpha} deg must be above the row before ({before})"
+        )),
         _ if alpha > 180.0 => Err(format!("angle {alpha} deg is beyond 180")),
         _ => Ok((alpha, lift, drag)),
     }
@@ -125,7 +146,9 @@ fn close(block: Option<&(f64, Vec<Row>)>) -> Result<(), String> {
         return Ok(());
     };
     let Some((first, last)) = rows.first().zip(rows.last()) else {
-        return Err(format!("the block of Reynolds number {reynolds} has no rows"));
+        return Err(format!(
+            "the block of Reynolds number {reynolds} has no rows"
+        ));
     };
     if last.0 != 180.0 {
         return Err(format!(
@@ -173,15 +196,38 @@ mod tests {
             ("10 1 0.02 -0.1", "10 nan 0.02", 7, "`nan` is not a number"),
             ("180 0 0.02\n", "190 0 0.02\n", 5, "must be -180"),
             ("\n180 0 0.02\n", "\n", 7, "must end at 180"),
-            ("\n180 0 0.02\n", "\n180 0 0.03\n", 8, "other values at -180"),
-            ("\n180 0 0.02\n", "\n180 0 0.02\nreynolds 1e4\n", 9, "above the block before"),
-            ("\n180 0 0.02\n", "\n180 0 0.02\nreynolds 1e6\n", 9, "has no rows"),
+            (
+                "\n180 0 0.02\n",
+                "\n180 0 0.03\n",
+                8,
+                "other values at -180",
+            ),
+            (
+                "\n180 0 0.02\n",
+                "\n180 0 0.02\nreynolds 1e4\n",
+                9,
+                "above the block before",
+            ),
+            (
+                "\n180 0 0.02\n",
+                "\n180 0 0.02\nreynolds 1e6\n",
+                9,
+                "has no rows",
+            ),
         ] {
             let text = GOOD.replacen(from, to, 1);
             let error = parse(&text, "bad.polar").unwrap_err().to_string();
             let place = format!("airfoil file bad.polar, line {line}: ");
-            assert!(error.starts_with(&place) && error.contains(part), "{to:?}: {error}");
+            assert!(
+                error.starts_with(&place) && error.contains(part),
+                "{to:?}: {error}"
+            );
         }
-        assert!(parse("", "x").unwrap_err().to_string().contains("the file is empty"));
+        assert!(
+            parse("", "x")
+                .unwrap_err()
+                .to_string()
+                .contains("the file is empty")
+        );
     }
 }

@@ -37,19 +37,32 @@ impl Curve {
     pub fn from_degrees(points: &[(f64, f64)]) -> Self {
         let alpha: Vec<f64> = points
             .iter()
-            .map(|p| if p.0.abs() == 180.0 { PI.copysign(p.0) } else { p.0.to_radians() })
+            .map(|p| {
+                if p.0.abs() == 180.0 {
+                    PI.copysign(p.0)
+                } else {
+                    p.0.to_radians()
+                }
+            })
             .collect();
         let value: Vec<f64> = points.iter().map(|p| p.1).collect();
         let stall = (
             -first_peak(points.iter().rev().map(|p| (-p.0, -p.1))).to_radians(),
             first_peak(points.iter().copied()).to_radians(),
         );
-        Self { alpha, value, stall }
+        Self {
+            alpha,
+            value,
+            stall,
+        }
     }
 
     fn value<S: Scalar>(&self, alpha: S) -> S {
         let last = self.alpha.len() - 1;
-        let upper = self.alpha.partition_point(|a| *a <= alpha.value()).clamp(1, last);
+        let upper = self
+            .alpha
+            .partition_point(|a| *a <= alpha.value())
+            .clamp(1, last);
         let (a0, a1) = (self.alpha[upper - 1], self.alpha[upper]);
         let (v0, v1) = (self.value[upper - 1], self.value[upper]);
         if alpha.value() == a0 {
@@ -80,9 +93,19 @@ impl Table {
         let (numbers, curve): (Vec<f64>, Vec<Curve>) = layers.into_iter().unzip();
         let position = numbers
             .into_iter()
-            .map(|n| if axis == Axis::Reynolds { Scalar::ln(n) } else { n })
+            .map(|n| {
+                if axis == Axis::Reynolds {
+                    Scalar::ln(n)
+                } else {
+                    n
+                }
+            })
             .collect();
-        Self { axis, position, curve }
+        Self {
+            axis,
+            position,
+            curve,
+        }
     }
 
     pub fn resolves_mach(&self) -> bool {
@@ -172,7 +195,10 @@ mod tests {
     }
 
     fn at(alpha_deg: f64, reynolds: f64) -> f64 {
-        let flow = Similarity { reynolds, mach: 0.0 };
+        let flow = Similarity {
+            reynolds,
+            mach: 0.0,
+        };
         table().value(alpha_deg.to_radians(), flow)
     }
 
@@ -182,7 +208,10 @@ mod tests {
         assert_eq!(at(-10.0, 1e5), -1.0);
         assert_eq!(at(10.0, 1e6), 2.0);
         assert!((at(5.0, 1e5) - 0.5).abs() < 1e-15);
-        assert!((at(10.0, libm::sqrt(1e11)) - 1.5).abs() < 1e-14, "half way in ln Re");
+        assert!(
+            (at(10.0, libm::sqrt(1e11)) - 1.5).abs() < 1e-14,
+            "half way in ln Re"
+        );
     }
 
     #[test]
@@ -200,7 +229,10 @@ mod tests {
 
     #[test]
     fn stall_is_the_first_peak_of_lift() {
-        let flow = Similarity { reynolds: 1e5, mach: 0.0 };
+        let flow = Similarity {
+            reynolds: 1e5,
+            mach: 0.0,
+        };
         let (negative, positive) = table().stall_angles(flow);
         assert!((positive.to_degrees() - 10.0).abs() < 1e-12);
         assert!((negative.to_degrees() + 10.0).abs() < 1e-12);

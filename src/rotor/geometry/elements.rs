@@ -39,7 +39,9 @@ impl Elements {
             let middle = cutout + step * (i as f64 + 0.5);
             let (inner, outer, share) = geometry.between(middle);
             elements.radius.push(middle * geometry.radius);
-            elements.chord.push(geometry.area(edge(i), edge(i + 1)) / elements.width);
+            elements
+                .chord
+                .push(geometry.area(edge(i), edge(i + 1)) / elements.width);
             elements.twist.push(geometry.twist(middle));
             elements.inner_airfoil.push(inner.airfoil);
             elements.outer_airfoil.push(outer.airfoil);

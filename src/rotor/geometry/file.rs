@@ -26,9 +26,17 @@ pub enum RotorFileError {
     #[error("rotor file {file}: cannot be read ({reason}); give a file that exists and is text")]
     Unreadable { file: String, reason: String },
     #[error("rotor file {file}, line {line}, column {column}: {problem}")]
-    Malformed { file: String, line: usize, column: usize, problem: String },
+    Malformed {
+        file: String,
+        line: usize,
+        column: usize,
+        problem: String,
+    },
     #[error("rotor file {file}: {problem}")]
-    Shape { file: String, problem: GeometryError },
+    Shape {
+        file: String,
+        problem: GeometryError,
+    },
 }
 
 #[derive(Deserialize)]
@@ -120,7 +128,10 @@ fn parse(text: &str, file: &str) -> Result<Geometry, RotorFileError> {
         stations,
         airfoils,
     };
-    geometry.check().map_err(|problem| RotorFileError::Shape { file: file.to_owned(), problem })?;
+    geometry.check().map_err(|problem| RotorFileError::Shape {
+        file: file.to_owned(),
+        problem,
+    })?;
     geometry.tip_chord = largest_outer_chord(&geometry);
     Ok(geometry)
 }
@@ -158,15 +169,33 @@ station = [
     #[test]
     fn errors_name_file_place_and_problem() {
         for (from, to, part) in [
-            ("radius = 1.5", "radius = \"big\"", "bad.toml, line 3, column 10: "),
-            ("radius = 1.5", "raduis = 1.5", "bad.toml, line 3, column 1: unknown field `raduis`"),
+            (
+                "radius = 1.5",
+                "radius = \"big\"",
+                "bad.toml, line 3, column 10: ",
+            ),
+            (
+                "radius = 1.5",
+                "raduis = 1.5",
+                "bad.toml, line 3, column 1: unknown field `raduis`",
+            ),
             ("radius = 1.5\n", "", "missing field `radius`"),
-            ("radius = 1.5", "radius = -1.5", "bad.toml: the rotor radius is -1.5 m"),
-            ("chord = 0.1, twist = 2.0", "chord = -1, twist = 2.0", "at r/R = 0.95 the chord is -1 m"),
+            (
+                "radius = 1.5",
+                "radius = -1.5",
+                "bad.toml: the rotor radius is -1.5 m",
+            ),
+            (
+                "chord = 0.1, twist = 2.0",
+                "chord = -1, twist = 2.0",
+                "at r/R = 0.95 the chord is -1 m",
+            ),
             ("r = 0.95", "r = 0.1", "r/R = 0.1 follows 0.2"),
             ("[\n", "[[\n", "bad.toml, line "),
         ] {
-            let error = parse(&GOOD.replacen(from, to, 1), "bad.toml").unwrap_err().to_string();
+            let error = parse(&GOOD.replacen(from, to, 1), "bad.toml")
+                .unwrap_err()
+                .to_string();
             assert!(error.contains(part), "{to}: {error}");
         }
     }

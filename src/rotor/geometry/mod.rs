@@ -86,7 +86,10 @@ impl Geometry {
             return fail("the number of blades is 0; it must be 1 or more".into());
         }
         if !(self.radius.is_finite() && self.radius > 0.0) {
-            return fail(format!("the rotor radius is {} m; it must be above 0", self.radius));
+            return fail(format!(
+                "the rotor radius is {} m; it must be above 0",
+                self.radius
+            ));
         }
         if !(0.0..=1.0).contains(&self.pitch_reference_radius) {
             return fail(format!(
@@ -99,7 +102,8 @@ impl Geometry {
         };
         if self.stations.len() < 2 || !(first.radius_ratio > 0.0) || last.radius_ratio != 1.0 {
             return fail(
-                "the blade needs two or more stations, the first at r/R > 0, the last at r/R = 1".into(),
+                "the blade needs two or more stations, the first at r/R > 0, the last at r/R = 1"
+                    .into(),
             );
         }
         for pair in self.stations.windows(2) {
@@ -148,7 +152,11 @@ impl Geometry {
             .partition_point(|s| s.radius_ratio <= radius_ratio)
             .clamp(1, self.stations.len() - 1);
         let (a, b) = (&self.stations[outer - 1], &self.stations[outer]);
-        (a, b, (radius_ratio - a.radius_ratio) / (b.radius_ratio - a.radius_ratio))
+        (
+            a,
+            b,
+            (radius_ratio - a.radius_ratio) / (b.radius_ratio - a.radius_ratio),
+        )
     }
 
     /// Blade area between two radii (fractions of R), m2: the exact integral of the linear chord.

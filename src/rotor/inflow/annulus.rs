@@ -64,8 +64,7 @@ fn residual<S: Scalar>(annulus: &Annulus, undisturbed: Undisturbed, inflow_angle
         annulus.radius / annulus.tip_radius,
         sin_inflow,
     );
-    let lift =
-        annulus.lift_coefficient(-inflow_angle + annulus.pitch, across * undisturbed.speed);
+    let lift = annulus.lift_coefficient(-inflow_angle + annulus.pitch, across * undisturbed.speed);
     factor * sin_inflow.abs() * induced_angle.sin() * 4.0 - lift * across * annulus.solidity()
 }
 
@@ -78,7 +77,10 @@ pub fn solve(annulus: &Annulus) -> Result<Load, RootError> {
         angle: libm::atan2(annulus.through, annulus.in_plane),
     };
     if undisturbed.speed == 0.0 {
-        return Ok(Load { angle_of_attack: annulus.pitch, ..Load::default() });
+        return Ok(Load {
+            angle_of_attack: annulus.pitch,
+            ..Load::default()
+        });
     }
     let inflow_angle = inflow_angle(annulus, undisturbed)?;
     Ok(load(annulus, undisturbed, inflow_angle))
@@ -86,7 +88,10 @@ pub fn solve(annulus: &Annulus) -> Result<Load, RootError> {
 
 fn inflow_angle(annulus: &Annulus, undisturbed: Undisturbed) -> Result<f64, RootError> {
     let equation = |phi: f64| residual(annulus, undisturbed, phi);
-    let end = |at: f64| End { at, residual: equation(at) };
+    let end = |at: f64| End {
+        at,
+        residual: equation(at),
+    };
     let search = |from: End, to: End| bracketed(equation, from, to, TOLERANCE);
 
     let start = end(undisturbed.angle);
@@ -111,7 +116,13 @@ fn inflow_angle(annulus: &Annulus, undisturbed: Undisturbed) -> Result<f64, Root
             return search(from, pitch);
         }
     }
-    search(from, End { at: far, residual: -from.residual })
+    search(
+        from,
+        End {
+            at: far,
+            residual: -from.residual,
+        },
+    )
 }
 
 fn load(annulus: &Annulus, undisturbed: Undisturbed, inflow_angle: f64) -> Load {
@@ -124,8 +135,9 @@ fn load(annulus: &Annulus, undisturbed: Undisturbed, inflow_angle: f64) -> Load 
     let pressure = 0.5 * annulus.density * speed * speed * annulus.chord * annulus.blades;
     // The axial part of the induced velocity, W sin(phi) - V, without taking a difference.
     let induced_velocity = undisturbed.speed * Scalar::sin(induced_angle) * cos;
-    let factor =
-        annulus.tip_loss.factor(annulus.blades, annulus.radius / annulus.tip_radius, sin);
+    let factor = annulus
+        .tip_loss
+        .factor(annulus.blades, annulus.radius / annulus.tip_radius, sin);
     Load {
         thrust: pressure * (lift * cos - drag * sin),
         torque: pressure * (lift * sin + drag * cos) * annulus.radius,

@@ -55,14 +55,22 @@ pub fn solve(annulus: &Annulus) -> Result<Load, RootError> {
     let rotation = annulus.in_plane;
     if rotation == 0.0 {
         // Small angles against a flow that does not turn: no load in this theory.
-        return Ok(Load { angle_of_attack: annulus.pitch, ..Load::default() });
+        return Ok(Load {
+            angle_of_attack: annulus.pitch,
+            ..Load::default()
+        });
     }
     let flow = annulus.similarity(rotation);
     let (slope, zero_lift) = {
         let line = |airfoil: &super::Airfoil| airfoil.lift_line(annulus.model, flow);
         let slope = annulus.section.mixed(|airfoil| line(airfoil).0);
-        let moment = annulus.section.mixed(|airfoil| line(airfoil).0 * line(airfoil).1);
-        (slope * annulus.lifting_share, if slope == 0.0 { 0.0 } else { moment / slope })
+        let moment = annulus
+            .section
+            .mixed(|airfoil| line(airfoil).0 * line(airfoil).1);
+        (
+            slope * annulus.lifting_share,
+            if slope == 0.0 { 0.0 } else { moment / slope },
+        )
     };
     let pitch = annulus.pitch - zero_lift;
 
@@ -75,14 +83,17 @@ pub fn solve(annulus: &Annulus) -> Result<Load, RootError> {
     } else {
         slope * annulus.model.compressibility.correct(lift, flow.mach) / lift
     };
-    let through = if corrected == slope { through } else { loaded_flow(annulus, corrected, pitch)? };
+    let through = if corrected == slope {
+        through
+    } else {
+        loaded_flow(annulus, corrected, pitch)?
+    };
 
     let inflow_angle = through / rotation;
     let angle_of_attack = annulus.pitch - inflow_angle;
     let lift = corrected * (pitch - inflow_angle);
     let drag = annulus.drag_coefficient(angle_of_attack, rotation);
-    let pressure =
-        0.5 * annulus.density * rotation * rotation * annulus.chord * annulus.blades;
+    let pressure = 0.5 * annulus.density * rotation * rotation * annulus.chord * annulus.blades;
     let induced_velocity = through - annulus.through;
     Ok(Load {
         thrust: pressure * lift,
@@ -111,21 +122,40 @@ fn loaded_flow(annulus: &Annulus, slope: f64, pitch: f64) -> Result<f64, RootErr
     // F falls from 1 to 0 as the flow goes from `without_loss` to its limit, theta Omega r.
     let residual = |through: f64| {
         let factor = factor(annulus, through);
-        if factor > 0.0 { through - with(factor) } else { through - pitch_flow }
+        if factor > 0.0 {
+            through - with(factor)
+        } else {
+            through - pitch_flow
+        }
     };
-    let first = End { at: without_loss, residual: residual(without_loss) };
+    let first = End {
+        at: without_loss,
+        residual: residual(without_loss),
+    };
     let side = if pitch_flow > without_loss { 1.0 } else { -1.0 };
     if first.residual * side >= 0.0 {
         return Ok(without_loss); // F differs from 1 by less than the rounding of the equation
     }
-    let last = End { at: pitch_flow, residual: -first.residual };
-    bracketed(residual, first, last, TOLERANCE * (pitch_flow - without_loss).abs())
+    let last = End {
+        at: pitch_flow,
+        residual: -first.residual,
+    };
+    bracketed(
+        residual,
+        first,
+        last,
+        TOLERANCE * (pitch_flow - without_loss).abs(),
+    )
 }
 
 fn factor(annulus: &Annulus, through: f64) -> f64 {
     let radius_ratio = annulus.radius / annulus.tip_radius;
     let sin_inflow = through / annulus.in_plane; // small angle, as in thesis eq. (95)
-    Scalar::abs(annulus.tip_loss.factor(annulus.blades, radius_ratio, sin_inflow))
+    Scalar::abs(
+        annulus
+            .tip_loss
+            .factor(annulus.blades, radius_ratio, sin_inflow),
+    )
 }
 
 #[cfg(test)]
@@ -150,7 +180,13 @@ mod tests {
     #[test]
     fn satisfies_momentum_theory_in_climb_and_as_a_windmill() {
         // 4 |lambda| (lambda - lambda_c) = 8 A (theta r - lambda)
-        for (climb, theta_r) in [(0.0, 0.1), (0.05, 0.1), (-0.3, 0.05), (0.3, -0.05), (0.0, -0.1)] {
+        for (climb, theta_r) in [
+            (0.0, 0.1),
+            (0.05, 0.1),
+            (-0.3, 0.05),
+            (0.3, -0.05),
+            (0.0, -0.1),
+        ] {
             let a = 0.03;
             let l = through_flow(a, climb, theta_r);
             let sides = 4.0 * l.abs() * (l - climb) - 8.0 * a * (theta_r - l);

@@ -94,7 +94,8 @@ impl Annulus<'_> {
 
     fn drag_coefficient<S: Scalar>(&self, alpha: S, speed: S) -> S {
         let flow = self.similarity(speed);
-        self.section.mixed(|airfoil| airfoil.drag_coefficient(self.model, alpha, flow))
+        self.section
+            .mixed(|airfoil| airfoil.drag_coefficient(self.model, alpha, flow))
     }
 }
 
