@@ -18,7 +18,7 @@ pub fn variables(table: &Table) -> String {
                 v.name,
                 unit_or_type(v),
                 default(table, v),
-                range(v),
+                range(table, v),
                 escape(&v.description),
                 if v.variability() == "tunable" {
                     " (tunable)"
@@ -57,21 +57,14 @@ fn default(table: &Table, v: &Variable) -> String {
     match (&v.start, v.base()) {
         (None, _) => String::new(),
         (Some(start), Base::Real) => {
-            let value = start.as_float().unwrap_or_default();
-            let shown = v.display_unit.as_ref().and_then(|name| {
-                let unit = table
-                    .units
-                    .iter()
-                    .find(|u| Some(&u.name) == v.unit.as_ref())?;
-                let display = unit.display.iter().find(|d| &d.name == name)?;
-                let value = value * display.factor + display.offset.unwrap_or(0.0);
-                Some(format!("{} {name}", short(value)))
-            });
-            shown.unwrap_or_else(|| short(value))
+            let (factor, offset, unit) = shown_in(table, v);
+            let value = start.as_float().unwrap_or_default() * factor + offset;
+            format!("{} {unit}", short(value)).trim_end().to_owned()
         }
-        (Some(start), Base::String) => {
-            format!("<code>{}</code>", escape(start.as_str().unwrap_or("")))
-        }
+        (Some(start), Base::String) => match start.as_str() {
+            None | Some("") => "(empty)".to_owned(),
+            Some(text) => format!("<code>{}</code>", escape(text)),
+        },
         (Some(start), Base::Integer) => match start.as_str() {
             Some(choice) => format!("<code>{choice}</code>"),
             None => start.to_string(),
@@ -79,11 +72,30 @@ fn default(table: &Table, v: &Variable) -> String {
     }
 }
 
-fn range(v: &Variable) -> String {
+fn range(table: &Table, v: &Variable) -> String {
+    let (factor, offset, _) = shown_in(table, v);
+    let shown = |limit: f64| short(limit * factor + offset);
     match (v.min, v.max) {
-        (Some(min), Some(max)) => format!("{} to {}", short(min), short(max)),
-        _ => String::new(),
+        (Some(min), Some(max)) => format!("{} to {}", shown(min), shown(max)),
+        (Some(min), None) => format!("from {}", shown(min)),
+        (None, Some(max)) => format!("to {}", shown(max)),
+        (None, None) => String::new(),
     }
+}
+
+/// Factor, offset and name of the display unit, if the variable has one.
+fn shown_in<'a>(table: &'a Table, v: &'a Variable) -> (f64, f64, &'a str) {
+    let unit = table
+        .units
+        .iter()
+        .find(|u| Some(&u.name) == v.unit.as_ref());
+    let displays = unit.map_or(&[][..], |u| &u.display);
+    displays
+        .iter()
+        .find(|d| Some(&d.name) == v.display_unit.as_ref())
+        .map_or((1.0, 0.0, ""), |d| {
+            (d.factor, d.offset.unwrap_or(0.0), d.name.as_str())
+        })
 }
 
 /// At most six decimals, without trailing zeros.

@@ -45,8 +45,15 @@ fn thrust(reals: &[(usize, f64)]) -> f64 {
 /// An airfoil without drag, for balances in which drag has no part.
 fn frictionless() -> Airfoil {
     let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
-    let file = folder.join(format!("frictionless-{:?}.polar", std::thread::current().id()));
-    fs::write(&file, "polar 1\nname none\nreynolds 1e6\n-180 0 0\n0 0 0\n180 0 0\n").unwrap();
+    let file = folder.join(format!(
+        "frictionless-{:?}.polar",
+        std::thread::current().id()
+    ));
+    fs::write(
+        &file,
+        "polar 1\nname none\nreynolds 1e6\n-180 0 0\n0 0 0\n180 0 0\n",
+    )
+    .unwrap();
     Airfoil::read(&file).unwrap()
 }
 
@@ -61,12 +68,24 @@ fn ideal(inflow: Inflow, tip_loss: TipLoss, chord: f64) -> Rotor {
             drag_reynolds_exponent: 0.0,
         },
     };
-    Rotor::new(Geometry::linear(2, 1.0, 0.1, chord, 1.0, 0.0), vec![frictionless()], models, 60)
+    Rotor::new(
+        Geometry::linear(2, 1.0, 0.1, chord, 1.0, 0.0),
+        vec![frictionless()],
+        models,
+        60,
+    )
 }
 
 fn fly(rotor: &mut Rotor, collective: f64, climb: f64) -> Performance {
     let air = Air::new(1.2, 288.15);
-    rotor.axial(&Operation { collective, speed: 100.0, climb, air }).unwrap()
+    rotor
+        .axial(&Operation {
+            collective,
+            speed: 100.0,
+            climb,
+            air,
+        })
+        .unwrap()
 }
 
 /// A well-known code gives no thrust at exactly V = 0, another a dip there.
@@ -76,11 +95,17 @@ fn thrust_in_hover_lies_on_the_line_between_slow_climb_and_slow_descent() {
         for inflow in [1, 2] {
             let at = |climb: f64| {
                 let reals = [(real::COLLECTIVE, collective), (real::VELOCITY_3, climb)];
-                output(&computed(&reals, &[(integer::MODEL__INFLOW, inflow)]), real::THRUST)
+                output(
+                    &computed(&reals, &[(integer::MODEL__INFLOW, inflow)]),
+                    real::THRUST,
+                )
             };
             let line = 0.5 * (at(-1e-6) + at(1e-6));
             let off = (at(0.0) / line - 1.0).abs();
-            assert!(off < 1e-9, "collective {collective}, inflow model {inflow}: off by {off:e}");
+            assert!(
+                off < 1e-9,
+                "collective {collective}, inflow model {inflow}: off by {off:e}"
+            );
         }
     }
 }
@@ -99,7 +124,13 @@ fn a_rotor_at_rest_in_still_air_has_no_load() {
 /// Wind from below on a stopped rotor with flat pitch pushes it up by the drag of its blades.
 #[test]
 fn wind_on_a_stopped_rotor_pushes_it_along() {
-    let pushed = |wind| thrust(&[(real::RPM, 0.0), (real::COLLECTIVE, 0.0), (real::WIND_3, wind)]);
+    let pushed = |wind| {
+        thrust(&[
+            (real::RPM, 0.0),
+            (real::COLLECTIVE, 0.0),
+            (real::WIND_3, wind),
+        ])
+    };
     let blade_area = 4.0 * 0.0508 * 0.762 * 5.0 / 6.0;
     let plate = 0.5 * 1.225 * 100.0 * blade_area * 2.0;
     // The plate's 2.01, and the section's friction at this low Reynolds number.
@@ -111,7 +142,12 @@ fn wind_on_a_stopped_rotor_pushes_it_along() {
 #[test]
 fn pitch_of_the_other_sign_mirrors_the_thrust_and_keeps_the_torque() {
     for inflow in [1, 2] {
-        let at = |pitch| computed(&[(real::COLLECTIVE, pitch)], &[(integer::MODEL__INFLOW, inflow)]);
+        let at = |pitch| {
+            computed(
+                &[(real::COLLECTIVE, pitch)],
+                &[(integer::MODEL__INFLOW, inflow)],
+            )
+        };
         let (up, down) = (at(0.15), at(-0.15));
         let (t, q) = (output(&up, real::THRUST), output(&up, real::TORQUE));
         assert!(t > 0.0 && q > 0.0);
@@ -151,13 +187,19 @@ fn lift_equals_the_momentum_given_to_the_air() {
             let through = climb + load.induced_velocity;
             let mass = 2.0 * PI * radius * 1.2 * through.abs();
             let momentum = 2.0 * mass * load.mean_induced_velocity;
-            assert!((load.thrust - momentum).abs() < 1e-9 * load.thrust.abs(), "r = {radius}");
+            assert!(
+                (load.thrust - momentum).abs() < 1e-9 * load.thrust.abs(),
+                "r = {radius}"
+            );
             let rotation = 100.0 * radius;
             // The flow that meets the section has the parts `through` and `in_plane`.
             let in_plane = (load.speed * load.speed - through * through).sqrt();
             let power = load.thrust * through / in_plane * rotation;
             let given = load.torque * 100.0;
-            assert!((power - given).abs() < 1e-9 * given.abs(), "r = {radius}: {power} {given}");
+            assert!(
+                (power - given).abs() < 1e-9 * given.abs(),
+                "r = {radius}: {power} {given}"
+            );
         }
     }
 }
@@ -174,7 +216,10 @@ fn the_annulus_tends_to_the_closed_form_for_small_angles() {
         };
         let (coarse, fine) = (difference(0.2), difference(0.1));
         assert!(coarse < 0.03, "{tip_loss:?}: {coarse}");
-        assert!(fine < coarse / 3.0, "{tip_loss:?}: {coarse} at 0.2 rad, {fine} at 0.1 rad");
+        assert!(
+            fine < coarse / 3.0,
+            "{tip_loss:?}: {coarse} at 0.2 rad, {fine} at 0.1 rad"
+        );
     }
 }
 
@@ -203,12 +248,21 @@ fn tilt_turns_the_hub_forces_into_the_ground_frame_and_the_flow_into_the_disc() 
         (real::HUB_FORCE_3, t),
         (real::HUB_MOMENT_3, -q),
     ] {
-        assert!((output(&block, place) - expected).abs() < 1e-12 * t, "{place}");
+        assert!(
+            (output(&block, place) - expected).abs() < 1e-12 * t,
+            "{place}"
+        );
     }
     // Climbing along the tilted shaft is climb; moving across it is not.
     let climb = thrust(&[(real::VELOCITY_3, 3.0)]);
-    let along = [(real::VELOCITY_1, 3.0 * tilt.sin()), (real::VELOCITY_3, 3.0 * tilt.cos())];
-    let across = [(real::VELOCITY_1, 3.0 * tilt.cos()), (real::VELOCITY_3, -3.0 * tilt.sin())];
+    let along = [
+        (real::VELOCITY_1, 3.0 * tilt.sin()),
+        (real::VELOCITY_3, 3.0 * tilt.cos()),
+    ];
+    let across = [
+        (real::VELOCITY_1, 3.0 * tilt.cos()),
+        (real::VELOCITY_3, -3.0 * tilt.sin()),
+    ];
     let tilted = |velocity: &[(usize, f64)]| thrust(&[&[(real::TILT, tilt)], velocity].concat());
     assert!((tilted(&along) / climb - 1.0).abs() < 1e-12);
     assert!((tilted(&across) / t - 1.0).abs() < 1e-12);
@@ -230,7 +284,10 @@ fn clockwise_rotation_mirrors_the_moment_only() {
     for place in [real::THRUST, real::TORQUE, real::POWER, real::FORCE_3] {
         assert_eq!(output(&other, place), output(&block, place));
     }
-    assert_eq!(output(&other, real::MOMENT_3), -output(&block, real::MOMENT_3));
+    assert_eq!(
+        output(&other, real::MOMENT_3),
+        -output(&block, real::MOMENT_3)
+    );
 }
 
 #[test]
@@ -257,11 +314,17 @@ fn coefficients_follow_their_definitions() {
 fn more_elements_change_the_third_digit_at_most() {
     for inflow in [1, 2] {
         let ct = |elements| {
-            let models = [(integer::NUMERICS__ELEMENTS, elements), (integer::MODEL__INFLOW, inflow)];
+            let models = [
+                (integer::NUMERICS__ELEMENTS, elements),
+                (integer::MODEL__INFLOW, inflow),
+            ];
             output(&computed(&[], &models), real::THRUST_COEFFICIENT)
         };
         let (standard, fine) = (ct(40), ct(1000));
-        assert!((standard / fine - 1.0).abs() < 5e-3, "{inflow}: {standard} {fine}");
+        assert!(
+            (standard / fine - 1.0).abs() < 5e-3,
+            "{inflow}: {standard} {fine}"
+        );
     }
 }
 
@@ -269,15 +332,20 @@ fn more_elements_change_the_third_digit_at_most() {
 fn every_model_is_finite_in_every_direction_of_flow_and_pitch() {
     let mut count = 0;
     let mut block = RotorBlock::new(resources());
-    block.set_integers(&[integer::NUMERICS__ELEMENTS as u32], &[12]).unwrap();
-    for models in (0..2 * 2 * 3 * 4).map(|i| [1 + i % 2, 1 + i / 2 % 2, 1 + i / 4 % 3, 1 + i / 12]) {
+    block
+        .set_integers(&[integer::NUMERICS__ELEMENTS as u32], &[12])
+        .unwrap();
+    for models in (0..2 * 2 * 3 * 4).map(|i| [1 + i % 2, 1 + i / 2 % 2, 1 + i / 4 % 3, 1 + i / 12])
+    {
         let places = [
             integer::MODEL__INFLOW,
             integer::MODEL__LIFT,
             integer::MODEL__TIP_LOSS,
             integer::MODEL__COMPRESSIBILITY,
         ];
-        block.set_integers(&places.map(|p| p as u32), &models).unwrap();
+        block
+            .set_integers(&places.map(|p| p as u32), &models)
+            .unwrap();
         for rpm in [0.0, 1.0, 960.0, 20_000.0] {
             for climb in [-60.0, -9.0, -4.0, -1.0, 0.0, 1e-9, 2.0, 30.0] {
                 for degrees in (-180..=180).step_by(30) {
@@ -285,7 +353,9 @@ fn every_model_is_finite_in_every_direction_of_flow_and_pitch() {
                     let places = [real::COLLECTIVE, real::RPM, real::VELOCITY_3];
                     block.set_reals(&places.map(|p| p as u32), &reals).unwrap();
                     // Outputs that are not finite are an error.
-                    block.update().unwrap_or_else(|e| panic!("{models:?} {reals:?}: {e}"));
+                    block
+                        .update()
+                        .unwrap_or_else(|e| panic!("{models:?} {reals:?}: {e}"));
                     count += 1;
                 }
             }
@@ -301,7 +371,11 @@ fn thrust_is_a_continuous_function_of_climb_outside_of_the_change_to_the_windmil
     let mut previous = at(10.0);
     for i in 1..=310 {
         let next = at(10.0 - 0.05 * f64::from(i));
-        assert!((next - previous).abs() < 0.8, "a jump at {} m/s", 10.0 - 0.05 * f64::from(i));
+        assert!(
+            (next - previous).abs() < 0.8,
+            "a jump at {} m/s",
+            10.0 - 0.05 * f64::from(i)
+        );
         previous = next;
     }
 }
@@ -310,24 +384,35 @@ fn thrust_is_a_continuous_function_of_climb_outside_of_the_change_to_the_windmil
 fn the_rotor_file_replaces_the_geometry_and_its_planform_counts() {
     let mut block = RotorBlock::new(resources());
     let set = |block: &mut RotorBlock, name: &str| {
-        block.set_strings(&[string::GEOMETRY__FILE as u32], &[name]).unwrap();
+        block
+            .set_strings(&[string::GEOMETRY__FILE as u32], &[name])
+            .unwrap();
     };
     block.update().unwrap();
     let rectangular = output(&block, real::THRUST);
     set(&mut block, "knight-hefner-4.toml");
     block.update().unwrap();
     let rounded = output(&block, real::THRUST);
-    assert!(rounded < rectangular && rounded > 0.97 * rectangular, "{rounded} {rectangular}");
+    assert!(
+        rounded < rectangular && rounded > 0.97 * rectangular,
+        "{rounded} {rectangular}"
+    );
     set(&mut block, "knight-hefner-3.toml");
     block.update().unwrap();
-    assert!(output(&block, real::THRUST) < 0.9 * rounded, "three blades instead of four");
+    assert!(
+        output(&block, real::THRUST) < 0.9 * rounded,
+        "three blades instead of four"
+    );
 }
 
 #[test]
 fn stall_spreads_with_pitch() {
     let stalled = |degrees: f64| {
         let block = computed(&[(real::COLLECTIVE, degrees.to_radians())], &[]);
-        (output(&block, real::STALLED_RADIUS), output(&block, real::STALLED_FRACTION))
+        (
+            output(&block, real::STALLED_RADIUS),
+            output(&block, real::STALLED_FRACTION),
+        )
     };
     assert_eq!(stalled(8.0), (0.0, 0.0));
     let (some, all) = (stalled(18.0), stalled(30.0));

@@ -12,7 +12,7 @@ use std::{
 
 /// The FMU, packaged once for this test program.
 fn fmu() -> &'static Path {
-    support::packaged_fmu().file()
+    support::fmu::packaged_fmu()
 }
 
 /// The interpreter of the examples' environment, made if need be.
@@ -29,12 +29,18 @@ fn run(command: &mut Command) -> String {
     let output = command.output().unwrap();
     let words = String::from_utf8_lossy(&output.stdout).into_owned();
     let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{command:?} failed\n{words}\n{errors}");
+    assert!(
+        output.status.success(),
+        "{command:?} failed\n{words}\n{errors}"
+    );
     words
 }
 
 fn fmpy(arguments: &[&str]) -> String {
-    run(Command::new(python()).args(["-m", "fmpy"]).args(arguments).arg(fmu()))
+    run(Command::new(python())
+        .args(["-m", "fmpy"])
+        .args(arguments)
+        .arg(fmu()))
 }
 
 fn example(script: &str) -> Command {
@@ -45,30 +51,46 @@ fn example(script: &str) -> Command {
 }
 
 fn scratch(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_TARGET_TMPDIR")).join(name)
+    support::fmu::scratch().join(name)
 }
 
 /// Rows of a CSV file with a header, as (name, value) by column; texts are left out.
 fn csv(text: &str) -> Vec<Vec<(String, f64)>> {
     let mut lines = text.lines();
-    let names: Vec<&str> = lines.next().unwrap().split(',').map(|n| n.trim_matches('"')).collect();
+    let names: Vec<&str> = lines
+        .next()
+        .unwrap()
+        .split(',')
+        .map(|n| n.trim_matches('"'))
+        .collect();
     lines
         .map(|line| {
             let fields = names.iter().zip(line.split(','));
-            fields.map(|(n, v)| ((*n).to_owned(), v.parse().unwrap())).collect()
+            fields
+                .map(|(n, v)| ((*n).to_owned(), v.parse().unwrap()))
+                .collect()
         })
         .collect()
 }
 
 fn value(row: &[(String, f64)], name: &str) -> f64 {
-    row.iter().find(|(n, _)| n == name).unwrap_or_else(|| panic!("no column {name}")).1
+    row.iter()
+        .find(|(n, _)| n == name)
+        .unwrap_or_else(|| panic!("no column {name}"))
+        .1
 }
 
 #[test]
 fn fmpy_finds_no_problem_and_describes_the_block() {
     assert_eq!(fmpy(&["validate"]).trim(), "No problems found.");
     let info = fmpy(&["info"]);
-    for part in ["HelicopterRotor", "Co-Simulation", "linux64", "collective", "Blade pitch"] {
+    for part in [
+        "HelicopterRotor",
+        "Co-Simulation",
+        "linux64",
+        "collective",
+        "Blade pitch",
+    ] {
         assert!(info.contains(part), "{part} is missing in\n{info}");
     }
 }
@@ -76,7 +98,13 @@ fn fmpy_finds_no_problem_and_describes_the_block() {
 #[test]
 fn fmpy_simulates_with_defaults_to_a_steady_thrust() {
     let file = scratch("defaults.csv");
-    fmpy(&["simulate", "--interface-type", "CoSimulation", "--output-file", file.to_str().unwrap()]);
+    fmpy(&[
+        "simulate",
+        "--interface-type",
+        "CoSimulation",
+        "--output-file",
+        file.to_str().unwrap(),
+    ]);
     let rows = csv(&fs::read_to_string(&file).unwrap());
     assert!(rows.len() > 50, "{}", rows.len());
     let first = value(&rows[0], "thrust");
@@ -110,23 +138,35 @@ fn a_communication_step_that_does_not_divide_the_time_is_met() {
 #[test]
 fn thrust_and_torque_of_knight_and_hefners_rotors() {
     let folder = scratch("knight-hefner");
-    println!("{}", run(example("knight_hefner.py").arg("--out").arg(&folder)));
+    println!(
+        "{}",
+        run(example("knight_hefner.py").arg("--out").arg(&folder))
+    );
     let rows = csv(&fs::read_to_string(folder.join("knight-hefner.csv")).unwrap());
     assert_eq!(rows.len(), 20);
-    let compared: Vec<_> = rows.iter().filter(|row| value(row, "theta") >= 4.0).collect();
+    let compared: Vec<_> = rows
+        .iter()
+        .filter(|row| value(row, "theta") >= 4.0)
+        .collect();
     assert_eq!(compared.len(), 14);
     for (column, measured, bound) in [("dCT", "CT", 6.0), ("dCQ", "CQ", 7.0)] {
         let differences = compared.iter().map(|row| {
             let difference = value(row, column);
             let computed = value(row, &format!("{measured}_fmu"));
             let again = 100.0 * (computed / value(row, measured) - 1.0);
-            assert!((difference - again).abs() < 1e-9, "the column {column} is what it says");
+            assert!(
+                (difference - again).abs() < 1e-9,
+                "the column {column} is what it says"
+            );
             difference.abs()
         });
         let (sum, worst) = differences.fold((0.0, 0.0_f64), |(s, w), d| (s + d, w.max(d)));
         let mean = sum / compared.len() as f64;
         println!("mean |{column}| {mean:.2} %, worst {worst:.2} %");
-        assert!(mean <= bound, "mean |{column}| is {mean:.2} %, above {bound} %");
+        assert!(
+            mean <= bound,
+            "mean |{column}| is {mean:.2} %, above {bound} %"
+        );
         assert!(worst <= 15.0, "the worst {column} is {worst:.2} %");
     }
     assert!(folder.join("knight-hefner.png").metadata().unwrap().len() > 10_000);
@@ -141,6 +181,12 @@ fn the_ramp_of_collective_raises_the_thrust_step_by_step() {
         .map(|line| line.split_whitespace().last().unwrap().parse().unwrap())
         .collect();
     assert_eq!(thrust.len(), 20);
-    assert!(thrust.windows(2).all(|pair| pair[1] > pair[0]), "{thrust:?}");
-    assert!((100.0..140.0).contains(thrust.last().unwrap()), "{thrust:?}");
+    assert!(
+        thrust.windows(2).all(|pair| pair[1] > pair[0]),
+        "{thrust:?}"
+    );
+    assert!(
+        (100.0..140.0).contains(thrust.last().unwrap()),
+        "{thrust:?}"
+    );
 }

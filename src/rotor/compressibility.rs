@@ -2,7 +2,9 @@
 //!
 //! The rules were made for pressure coefficients; like the thesis (section 3.4) we apply them to
 //! the lift coefficient, with its magnitude in place of Cp so that the correction has no
-//! preferred sign. All rules equal 1 at Mach 0.
+//! preferred sign. With a positive Cp in their denominators, Karman & Tsien's and Laitone's rules
+//! then raise the lift less than Prandtl & Glauert's; on the suction that makes most of a real
+//! section's lift they raise it more. All rules leave the lift as it is at Mach 0.
 
 use super::scalar::Scalar;
 

@@ -103,17 +103,18 @@ impl Airfoil {
         flow: Similarity<S>,
     ) -> S {
         match model.lift {
-            Lift::TwoPi => model
-                .compressibility
-                .correct(alpha.sin() * (2.0 * PI), flow.mach),
-            Lift::Table => {
-                let lift = self.lift.value(alpha, flow);
-                if self.lift.resolves_mach() {
-                    return lift; // the file's Mach numbers take the place of a rule
-                }
-                model.compressibility.correct(lift, flow.mach)
-            }
+            Lift::TwoPi => self.compressible(model, alpha.sin() * (2.0 * PI), flow.mach),
+            Lift::Table => self.compressible(model, self.lift.value(alpha, flow), flow.mach),
         }
+    }
+
+    /// The lift coefficient at a Mach number from the table's. A table of several Mach numbers
+    /// takes the place of a rule.
+    pub fn compressible<S: Scalar>(&self, model: &SectionModel, lift: S, mach: S) -> S {
+        if model.lift == Lift::Table && self.lift.resolves_mach() {
+            return lift;
+        }
+        model.compressibility.correct(lift, mach)
     }
 
     /// Drag coefficient at angle of attack `alpha` (rad, any value).
@@ -123,7 +124,8 @@ impl Airfoil {
     /// Two-Dimensional Airfoil Characteristics for Helicopter Rotor Analyses", NASA TM-84363,
     /// n = 0.2 for a turbulent boundary layer. Beyond stall, where the drag is that of pressure
     /// and knows little of the boundary layer, only the part that is not above the drag at the
-    /// stall angle is scaled. Tables by Mach number know no Reynolds number and stay as they are.
+    /// stall angle is scaled. Bodies without lift have pressure drag only, and tables by Mach number
+    /// know no Reynolds number; both stay as they are.
     pub fn drag_coefficient<S: Scalar>(
         &self,
         model: &SectionModel,
@@ -136,7 +138,8 @@ impl Airfoil {
         };
         let reynolds = flow.reynolds.at_least(LOWEST_CORRECTED_REYNOLDS);
         let nearest = reynolds.value().clamp(lowest, highest);
-        if model.drag_reynolds_exponent == 0.0 || nearest == reynolds.value() {
+        let is_off = model.drag_reynolds_exponent == 0.0 || !self.lift.is_anywhere();
+        if is_off || nearest == reynolds.value() {
             return drag;
         }
         let ratio = S::constant(nearest) / reynolds;
@@ -169,12 +172,8 @@ impl Airfoil {
         (slope, -0.5 * (high + low) / slope)
     }
 
-    /// Whether the table's lift already depends on Mach number.
-    pub fn resolves_mach(&self) -> bool {
-        self.lift.resolves_mach()
-    }
-
-    /// Angles of attack (negative, positive; rad) at which the lift reaches its first peak.
+    /// Angles of attack (negative, positive; rad) at which the lift reaches its first peak; -pi
+    /// and pi for a section without lift, which cannot stall.
     pub fn stall_angles(&self, flow: Similarity<f64>) -> (f64, f64) {
         self.lift.stall_angles(flow)
     }

@@ -74,9 +74,9 @@ impl Curve {
 }
 
 /// Angle (deg) of the first local maximum of lift at positive angles up to 30 deg; of the largest
-/// value there if the lift has no local maximum.
+/// value there if the lift has no local maximum; 180 if there is no lift.
 fn first_peak(points: impl Iterator<Item = (f64, f64)>) -> f64 {
-    let mut best: (f64, f64) = (30.0, 0.0);
+    let mut best: (f64, f64) = (180.0, 0.0);
     for (alpha, lift) in points.filter(|p| p.0 > 0.0 && p.0 <= 30.0) {
         if lift > best.1 {
             best = (alpha, lift);
@@ -110,6 +110,13 @@ impl Table {
 
     pub fn resolves_mach(&self) -> bool {
         self.axis == Axis::Mach && self.curve.len() > 1
+    }
+
+    /// Whether the coefficient differs from 0 at some angle.
+    pub fn is_anywhere(&self) -> bool {
+        self.curve
+            .iter()
+            .any(|curve| curve.value.iter().any(|v| *v != 0.0))
     }
 
     /// Lowest and highest Reynolds number, if the layers are numbered by it.
@@ -236,5 +243,8 @@ mod tests {
         let (negative, positive) = table().stall_angles(flow);
         assert!((positive.to_degrees() - 10.0).abs() < 1e-12);
         assert!((negative.to_degrees() + 10.0).abs() < 1e-12);
+        let circle = Curve::from_degrees(&[(-180.0, 0.0), (0.0, 0.0), (180.0, 0.0)]);
+        let circle = Table::new(Axis::Reynolds, vec![(1e5, circle)]);
+        assert_eq!(circle.stall_angles(flow), (-PI, PI), "no lift, no stall");
     }
 }

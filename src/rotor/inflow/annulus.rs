@@ -7,10 +7,10 @@
 //! the induced velocity and whose in-plane part is the swirl. So the section sees
 //!
 //! ```text
-//! W = U cos(phi - phi0),   induced velocity U sin(phi - phi0)   with the inflow angle phi
+//! W = U cos(phi - phi0),   magnitude of the induced velocity U |sin(phi - phi0)|
 //! ```
 //!
-//! and phi is the annulus' only unknown. Drag makes no circulation and so induces nothing (Wilson
+//! at the inflow angle phi, which is the annulus' only unknown. Drag makes no circulation and so induces nothing (Wilson
 //! & Lissaman 1974, "Applied Aerodynamics of Wind Power Machines", ch. 3); with drag in the swirl,
 //! blades at zero lift in hover would stand in air that turns with them.
 //!
@@ -70,7 +70,7 @@ fn residual<S: Scalar>(annulus: &Annulus, undisturbed: Undisturbed, inflow_angle
 
 /// The flow and the loads at one element.
 ///
-/// Fails only if the airfoil's or the flow's numbers are not finite.
+/// Fails only if the airfoil's or the flow's numbers are not finite, or so large that they overflow.
 pub fn solve(annulus: &Annulus) -> Result<Load, RootError> {
     let undisturbed = Undisturbed {
         speed: libm::hypot(annulus.in_plane, annulus.through),

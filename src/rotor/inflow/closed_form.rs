@@ -24,6 +24,7 @@
 
 use super::{Annulus, Load};
 use crate::rotor::{
+    airfoil::Airfoil,
     root::{End, RootError, bracketed},
     scalar::Scalar,
     tip_loss::TipLoss,
@@ -62,7 +63,7 @@ pub fn solve(annulus: &Annulus) -> Result<Load, RootError> {
     }
     let flow = annulus.similarity(rotation);
     let (slope, zero_lift) = {
-        let line = |airfoil: &super::Airfoil| airfoil.lift_line(annulus.model, flow);
+        let line = |airfoil: &Airfoil| airfoil.lift_line(annulus.model, flow);
         let slope = annulus.section.mixed(|airfoil| line(airfoil).0);
         let moment = annulus
             .section
@@ -78,10 +79,11 @@ pub fn solve(annulus: &Annulus) -> Result<Load, RootError> {
     // incompressible slope for the lift, and again with the slope corrected at that lift.
     let through = loaded_flow(annulus, slope, pitch)?;
     let lift = slope * (pitch - through / rotation);
-    let corrected = if annulus.section.outer.resolves_mach() || lift == 0.0 {
+    let corrected = if lift == 0.0 {
         slope
     } else {
-        slope * annulus.model.compressibility.correct(lift, flow.mach) / lift
+        let at_mach = |airfoil: &Airfoil| airfoil.compressible(annulus.model, lift, flow.mach);
+        slope * annulus.section.mixed(at_mach) / lift
     };
     let through = if corrected == slope {
         through

@@ -1,0 +1,134 @@
+//! The archive: what is in it, and that it appears whole or not at all.
+
+mod support;
+
+use std::{
+    collections::BTreeMap,
+    fs::{self, File},
+    io::Read,
+    path::{Path, PathBuf},
+    process::{Command, Output},
+};
+
+fn package(out: &Path) -> Output {
+    let mut program = Command::new(env!("CARGO_BIN_EXE_helicopter-rotor"));
+    program
+        .arg("package")
+        .arg("--out")
+        .arg(out)
+        .output()
+        .unwrap()
+}
+
+fn scratch(name: &str) -> PathBuf {
+    support::fmu::scratch().join(name)
+}
+
+/// The files in the archive by name.
+fn content(fmu: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut archive = zip::ZipArchive::new(File::open(fmu).unwrap()).unwrap();
+    (0..archive.len())
+        .map(|i| {
+            let mut file = archive.by_index(i).unwrap();
+            let name = file.name().unwrap().into_owned();
+            let mut bytes = Vec::new();
+            file.read_to_end(&mut bytes).unwrap();
+            (name, bytes)
+        })
+        .collect()
+}
+
+#[test]
+fn the_archive_holds_what_an_importer_and_a_reader_expect() {
+    let files = content(support::fmu::packaged_fmu());
+    for name in [
+        "modelDescription.xml",
+        "binaries/linux64/HelicopterRotor.so",
+        "documentation/index.html",
+        "documentation/diagram.svg",
+        "documentation/licenses/LICENSE-MIT.txt",
+        "documentation/licenses/LICENSE-APACHE.txt",
+        "documentation/licenses/THIRD-PARTY.txt",
+        "model.png",
+        "resources/airfoils/naca0015-knight-hefner.polar",
+        "resources/airfoils/naca0015.polar",
+        "resources/rotors/knight-hefner-3.toml",
+    ] {
+        assert!(
+            files.get(name).is_some_and(|f| !f.is_empty()),
+            "{name} is missing or empty"
+        );
+    }
+    for name in files.keys() {
+        assert!(!name.starts_with("./") && !name.contains('\\'), "{name}");
+    }
+    let page = String::from_utf8(files["documentation/index.html"].clone()).unwrap();
+    for name in ["collective", "geometry.file", "hubMoment[3]", "karmanTsien"] {
+        assert!(page.contains(name), "the page has no {name}");
+    }
+    assert!(!page.contains("<!--"), "a place in the page was left empty");
+}
+
+#[test]
+fn the_same_content_makes_the_same_archive() {
+    let (one, other) = (scratch("same-1.fmu"), scratch("same-2.fmu"));
+    assert!(package(&one).status.success() && package(&other).status.success());
+    assert!(fs::read(one).unwrap() == fs::read(other).unwrap());
+}
+
+#[test]
+fn a_place_that_cannot_be_written_is_named_and_nothing_is_left_behind() {
+    let folder = scratch("a-folder-in-the-way.fmu");
+    fs::create_dir_all(folder.join("inside")).unwrap();
+    let output = package(&folder);
+    assert!(!output.status.success());
+    let words = String::from_utf8_lossy(&output.stderr);
+    assert!(words.contains("a-folder-in-the-way.fmu"), "{words}");
+    let left_over = fs::read_dir(folder.parent().unwrap())
+        .unwrap()
+        .any(|entry| {
+            let name = entry.unwrap().file_name();
+            name.to_string_lossy().starts_with(".a-folder-in-the-way")
+        });
+    assert!(!left_over);
+}
+
+/// A locked package's version, without what stands behind a `+`.
+fn version(package: &toml::Value) -> &str {
+    let version = package["version"].as_str().unwrap();
+    version.split('+').next().unwrap()
+}
+
+/// The licence file names each crate with the version that is linked.
+#[test]
+fn the_third_party_licences_are_those_of_the_lock_file() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let lock: toml::Table = fs::read_to_string(root.join("Cargo.lock"))
+        .unwrap()
+        .parse()
+        .unwrap();
+    let locked: Vec<(&str, &str)> = lock["package"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|p| (p["name"].as_str().unwrap(), version(p)))
+        .collect();
+    let text = root.join("modelDescription/licenses/THIRD-PARTY.txt");
+    let text = fs::read_to_string(text).unwrap();
+    let rows = text
+        .lines()
+        .skip_while(|line| !line.trim_start().starts_with("crate "))
+        .skip(1)
+        .take_while(|line| !line.trim().is_empty());
+    let mut count = 0;
+    for row in rows {
+        let mut words = row.split_whitespace();
+        let (name, version) = (words.next().unwrap(), words.next().unwrap());
+        assert!(
+            locked.contains(&(name, version)),
+            "{name} {version} is not what is linked"
+        );
+        count += 1;
+    }
+    assert!(count > 10, "{count} crates");
+}
