@@ -45,7 +45,7 @@ pub fn environment(target: &Path) -> Result<PathBuf, Failure> {
             .map_err(failed(format!("cannot replace {}", folder.display())))?;
     }
     succeed(
-        Command::new(&python).args(["-m", "venv"]).arg(&folder),
+        Command::new(python).args(["-m", "venv"]).arg(&folder),
         "cannot make a Python environment; on Debian or Ubuntu, install the package python3-venv",
     )?;
     spinner.set_message("installing FMPy and Matplotlib into it (once, about a minute) ...");

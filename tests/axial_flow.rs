@@ -1,5 +1,8 @@
 //! The rotor in axial flow: limits, symmetries and balances that a reader can check on paper.
 
+// The standard library's functions are independent of those under test.
+#![allow(clippy::disallowed_methods)]
+
 use helicopter_rotor::{
     block::{
         RotorBlock,

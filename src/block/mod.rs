@@ -3,6 +3,7 @@
 
 mod location;
 mod setup;
+mod shown;
 mod values;
 pub mod variables;
 
@@ -193,6 +194,9 @@ fn air(values: &Values) -> Result<Air, SetupError> {
     )
 }
 
+/// Tip speed, m/s, up to which a rotor counts as standing still, where coefficients mean nothing.
+const STANDSTILL: f64 = 1e-6;
+
 /// Writes the outputs among the Real variables.
 fn write_outputs(
     reals: &mut [f64],
@@ -234,7 +238,7 @@ fn write_outputs(
     let tip_speed = operation.speed * radius;
     let reference_force = air.density * PI * radius * radius * tip_speed * tip_speed;
     let per = |quantity: f64, reference: f64| {
-        if reference > 0.0 {
+        if tip_speed > STANDSTILL {
             quantity / reference
         } else {
             0.0
@@ -268,6 +272,6 @@ fn inputs(values: &Values) -> String {
         .iter()
         .zip(values.reals)
         .filter(|(v, _)| v.causality == Causality::Input);
-    let texts = inputs.map(|(v, value)| format!("{} = {value} {}", v.name, v.unit));
+    let texts = inputs.map(|(v, value)| format!("{} = {} {}", v.name, shown::shown(value), v.unit));
     texts.collect::<Vec<_>>().join(", ")
 }

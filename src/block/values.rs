@@ -1,5 +1,6 @@
 //! The values of all variables, and the rules under which they may be set.
 
+use super::shown::shown;
 use super::variables::{Causality, INTEGERS, REALS, STRINGS, Variable};
 use std::fmt::Display;
 use thiserror::Error;
@@ -151,7 +152,7 @@ impl Values {
         for (reference, value) in references.iter().zip(values) {
             let (place, variable) = find(&REALS, "Real", *reference)?;
             let kept = self.reals[place];
-            may_set(variable, stage, *value != kept, &kept)?;
+            may_set(variable, stage, *value != kept, &shown(kept))?;
             let name = variable.name;
             if !value.is_finite() {
                 return Err(ValueError::NotFinite {
@@ -161,11 +162,15 @@ impl Values {
                 });
             }
             if *value < variable.min || *value > variable.max {
-                let unit = |x: f64| format!("{x} {}", variable.unit).trim_end().to_owned();
+                let unit = |x: f64| {
+                    format!("{} {}", shown(x), variable.unit)
+                        .trim_end()
+                        .to_owned()
+                };
                 return Err(ValueError::OutOfRange {
                     name,
                     value: unit(*value),
-                    min: variable.min.to_string(),
+                    min: shown(variable.min),
                     max: unit(variable.max),
                     kept: unit(kept),
                 });

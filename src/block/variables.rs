@@ -1,6 +1,9 @@
 //! The table of variables as the build made it from modelDescription/variables.toml: names,
 //! defaults, ranges and value references. Neutral of the FMI version.
 
+// Defaults and limits stand as numbers in the table, also where they are pi.
+#![allow(clippy::approx_constant)]
+
 /// What a variable is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Causality {

@@ -27,13 +27,13 @@ pub unsafe extern "C" fn fmi2DoStep(
     let body = |instance: &mut Instance| {
         let (point, step) = (currentCommunicationPoint, communicationStepSize);
         let experiment = instance.experiment;
-        // Written so that NaN is refused as well.
-        if !(step > 0.0 && step.is_finite()) {
+        if step <= 0.0 || !step.is_finite() {
             return refuse(format!(
                 "communicationStepSize = {step} s; the step must be positive and finite"
             ));
         }
-        if !((point - experiment.time).abs() <= tolerance(experiment.time, step)) {
+        let drift = (point - experiment.time).abs();
+        if drift.is_nan() || drift > tolerance(experiment.time, step) {
             return refuse(format!(
                 "currentCommunicationPoint = {point} s, but the last step ended at {} s; continue from there",
                 experiment.time

@@ -193,11 +193,14 @@ fn check_identity(kind: fmi2Enumeration, guid: Result<&str, Message>) -> Result<
     Ok(())
 }
 
-/// The folder of the resources: the importer's URI (or plain path) if there is such a folder, else
-/// the one beside `binaries/<platform>/`, where this library lies.
+/// A folder that our resources have.
+const AIRFOILS: &str = "airfoils";
+
+/// The folder of the resources: the importer's URI (or plain path) if our files are in it, else the
+/// one beside `binaries/<platform>/`, where this library lies.
 fn resources(location: Option<&str>) -> PathBuf {
     let given = location.map(|text| path_from_uri(text).unwrap_or_else(|| PathBuf::from(text)));
-    if let Some(folder) = given.filter(|path| path.is_absolute() && path.is_dir()) {
+    if let Some(folder) = given.filter(|path| path.join(AIRFOILS).is_dir()) {
         return folder;
     }
     let beside = library_file().and_then(|file| {
@@ -271,9 +274,8 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
             ));
         }
         let stop_time = (stopTimeDefined != FMI2_FALSE).then_some(stopTime);
-        // Written so that NaN is refused as well.
         if let Some(stop) = stop_time
-            && !(stop >= startTime)
+            && (stop.is_nan() || stop < startTime)
         {
             return refuse(format!(
                 "stopTime = {stop} s lies before startTime = {startTime} s; pass a later one or none"

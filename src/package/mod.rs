@@ -39,7 +39,7 @@ pub fn write(file: &Path) -> Result<(), Failure> {
     ));
     let written = File::create(&temporary)
         .map_err(failed(format!("cannot write {}", temporary.display())))
-        .and_then(|out| archive(out))
+        .and_then(archive)
         .and_then(|()| {
             fs::rename(&temporary, file).map_err(failed(format!("cannot write {}", file.display())))
         });

@@ -8,6 +8,7 @@ pub mod geometry;
 pub mod inflow;
 pub mod root;
 pub mod scalar;
+mod text_file;
 pub mod tip_loss;
 
 use air::Air;

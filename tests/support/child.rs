@@ -23,8 +23,16 @@ pub fn run_alone(name: &str) -> Option<Printed> {
         .output()
         .unwrap();
     let printed = Printed(output);
-    assert!(printed.0.status.success(), "{name} in a child process: {}", printed.all());
-    assert!(printed.all().contains("1 passed"), "{name} did not run: {}", printed.all());
+    assert!(
+        printed.0.status.success(),
+        "{name} in a child process: {}",
+        printed.all()
+    );
+    assert!(
+        printed.all().contains("1 passed"),
+        "{name} did not run: {}",
+        printed.all()
+    );
     Some(printed)
 }
 
@@ -38,7 +46,9 @@ pub fn watched<T>(part: impl FnOnce() -> T) -> T {
 
 fn mark() {
     let (mut stdout, mut stderr) = (std::io::stdout(), std::io::stderr());
-    writeln!(stdout, "{MARK}").and_then(|()| stdout.flush()).unwrap();
+    writeln!(stdout, "{MARK}")
+        .and_then(|()| stdout.flush())
+        .unwrap();
     writeln!(stderr, "{MARK}").unwrap();
 }
 

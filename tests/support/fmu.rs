@@ -20,7 +20,9 @@ pub fn scratch() -> &'static Path {
         if Path::new("/proc/self").exists() {
             for entry in fs::read_dir(all).into_iter().flatten().flatten() {
                 let name = entry.file_name().to_string_lossy().into_owned();
-                let process = name.strip_prefix(prefix).and_then(|id| id.parse::<u32>().ok());
+                let process = name
+                    .strip_prefix(prefix)
+                    .and_then(|id| id.parse::<u32>().ok());
                 if process.is_some_and(|id| !Path::new(&format!("/proc/{id}")).exists()) {
                     // Another process may remove it at the same time.
                     let _ = fs::remove_dir_all(entry.path());
@@ -39,8 +41,17 @@ pub fn packaged_fmu() -> &'static Path {
     FILE.get_or_init(|| {
         let file = scratch().join("HelicopterRotor.fmu");
         let mut program = Command::new(env!("CARGO_BIN_EXE_helicopter-rotor"));
-        let output = program.arg("package").arg("--out").arg(&file).output().unwrap();
-        assert!(output.status.success(), "package: {}", String::from_utf8_lossy(&output.stderr));
+        let output = program
+            .arg("package")
+            .arg("--out")
+            .arg(&file)
+            .output()
+            .unwrap();
+        assert!(
+            output.status.success(),
+            "package: {}",
+            String::from_utf8_lossy(&output.stderr)
+        );
         file
     })
 }
@@ -76,11 +87,13 @@ impl Fmu {
     pub fn shared() -> &'static Self {
         static FMU: OnceLock<Fmu> = OnceLock::new();
         FMU.get_or_init(|| {
-            let folder = std::env::var_os(UNPACKED).map(PathBuf::from).unwrap_or_else(|| {
-                let folder = scratch().join("unpacked");
-                unpack_into(&folder);
-                folder
-            });
+            let folder = std::env::var_os(UNPACKED)
+                .map(PathBuf::from)
+                .unwrap_or_else(|| {
+                    let folder = scratch().join("unpacked");
+                    unpack_into(&folder);
+                    folder
+                });
             Self::load(&folder)
         })
     }
@@ -91,7 +104,11 @@ impl Fmu {
         let library = unsafe { libloading::Library::new(binary(folder)) }.unwrap();
         // SAFETY: it is ours, and is kept with the functions.
         let functions = unsafe { Functions::find(&library) };
-        Self { functions, folder: folder.to_owned(), library }
+        Self {
+            functions,
+            folder: folder.to_owned(),
+            library,
+        }
     }
 
     /// Unloads the library; the instances must be freed.
@@ -109,7 +126,11 @@ pub fn binary(folder: &Path) -> PathBuf {
     let only = |folder: &Path| {
         let mut entries = fs::read_dir(folder).unwrap();
         let first = entries.next().unwrap().unwrap().path();
-        assert!(entries.next().is_none(), "more than one file in {}", folder.display());
+        assert!(
+            entries.next().is_none(),
+            "more than one file in {}",
+            folder.display()
+        );
         first
     };
     only(&only(&folder.join("binaries")))

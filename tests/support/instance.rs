@@ -33,8 +33,12 @@ unsafe extern "C" fn collect(
 ) {
     // SAFETY: the strings live during this call, as the standard demands.
     let text = |text: Text| unsafe { CStr::from_ptr(text) }.to_str().unwrap().to_owned();
-    let line =
-        Line { instance: text(instance), status, category: text(category), message: text(message) };
+    let line = Line {
+        instance: text(instance),
+        status,
+        category: text(category),
+        message: text(message),
+    };
     // SAFETY: every instance that gets this logger gets the address of a living `Log` with it.
     let log = unsafe { &*environment.cast::<Log>() };
     log.lock().unwrap().push(line);
@@ -118,7 +122,11 @@ impl<'f> Instance<'f> {
         if component.is_null() {
             return Err(log.into_inner().unwrap());
         }
-        Ok(Self { component, functions: &fmu.functions, log })
+        Ok(Self {
+            component,
+            functions: &fmu.functions,
+            log,
+        })
     }
 
     /// An instance of the shared FMU before its initialisation.
@@ -155,9 +163,18 @@ impl<'f> Instance<'f> {
     pub fn refused(&self, status: Status) -> String {
         let log = self.take_log();
         assert_eq!(status, c::ERROR, "the call must be refused; log: {log:?}");
-        let [line] = &log[..] else { panic!("one line is expected for one error: {log:?}") };
-        assert_eq!((line.status, line.category.as_str()), (c::ERROR, "logStatusError"), "{line:?}");
-        assert!(line.message.starts_with("fmi2"), "it must begin with the function: {line:?}");
+        let [line] = &log[..] else {
+            panic!("one line is expected for one error: {log:?}")
+        };
+        assert_eq!(
+            (line.status, line.category.as_str()),
+            (c::ERROR, "logStatusError"),
+            "{line:?}"
+        );
+        assert!(
+            line.message.starts_with("fmi2"),
+            "it must begin with the function: {line:?}"
+        );
         line.message.clone()
     }
 }
@@ -213,7 +230,10 @@ impl Instance<'_> {
     }
 
     pub fn set_debug_logging(&self, on: bool, categories: &[&str]) -> Status {
-        let texts: Vec<CString> = categories.iter().map(|c| CString::new(*c).unwrap()).collect();
+        let texts: Vec<CString> = categories
+            .iter()
+            .map(|c| CString::new(*c).unwrap())
+            .collect();
         let pointers: Vec<Text> = texts.iter().map(|t| t.as_ptr()).collect();
         let set = self.functions.fmi2SetDebugLogging;
         // SAFETY: see above.
@@ -228,7 +248,14 @@ impl Instance<'_> {
         assert_eq!(references.len(), values.len());
         let set = self.functions.fmi2SetReal;
         // SAFETY: see above.
-        unsafe { set(self.component, references.as_ptr(), values.len(), values.as_ptr()) }
+        unsafe {
+            set(
+                self.component,
+                references.as_ptr(),
+                values.len(),
+                values.as_ptr(),
+            )
+        }
     }
 
     pub fn set_integer(&self, name: &str, value: c_int) -> Status {
@@ -253,7 +280,14 @@ impl Instance<'_> {
         assert_eq!(references.len(), values.len());
         let get = self.functions.fmi2GetReal;
         // SAFETY: see above.
-        unsafe { get(self.component, references.as_ptr(), values.len(), values.as_mut_ptr()) }
+        unsafe {
+            get(
+                self.component,
+                references.as_ptr(),
+                values.len(),
+                values.as_mut_ptr(),
+            )
+        }
     }
 
     pub fn get_integer_at(&self, reference: Reference, value: &mut c_int) -> Status {
@@ -274,7 +308,12 @@ impl Instance<'_> {
     pub fn reals(&self) -> Vec<f64> {
         let references: Vec<Reference> = (0..REALS.len() as Reference).collect();
         let mut values = vec![f64::NAN; REALS.len()];
-        assert_eq!(self.get_reals(&references, &mut values), c::OK, "{:?}", self.take_log());
+        assert_eq!(
+            self.get_reals(&references, &mut values),
+            c::OK,
+            "{:?}",
+            self.take_log()
+        );
         values
     }
 
@@ -292,9 +331,13 @@ impl Instance<'_> {
         let reference = reference(&STRINGS, name);
         let get = self.functions.fmi2GetString;
         // SAFETY: see above.
-        assert_eq!(unsafe { get(self.component, &reference, 1, &mut value) }, c::OK, "{name}");
+        let status = unsafe { get(self.component, &reference, 1, &mut value) };
+        assert_eq!(status, c::OK, "{name}: {:?}", self.take_log());
         // SAFETY: the library's string lives until the next call.
-        unsafe { CStr::from_ptr(value) }.to_str().unwrap().to_owned()
+        unsafe { CStr::from_ptr(value) }
+            .to_str()
+            .unwrap()
+            .to_owned()
     }
 }
 

@@ -6,7 +6,7 @@
 //! * `child.rs`: a test run alone in a process of its own
 
 // Each test program uses a part of this.
-#![allow(dead_code)]
+#![allow(dead_code, unused_imports)]
 
 pub mod c;
 pub mod child;
@@ -14,4 +14,4 @@ pub mod fmu;
 pub mod instance;
 
 pub use fmu::Fmu;
-pub use instance::{Creation, Instance, Line};
+pub use instance::{Creation, Instance};

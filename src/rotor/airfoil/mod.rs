@@ -7,9 +7,9 @@ mod table;
 
 pub use table::{Axis, Curve, Table, wrapped};
 
-use super::{compressibility::Compressibility, scalar::Scalar};
+use super::{compressibility::Compressibility, scalar::Scalar, text_file};
 use core::f64::consts::PI;
-use std::{fs, path::Path};
+use std::path::Path;
 use thiserror::Error;
 
 /// Reynolds numbers below this count as this in the drag correction, which was made for
@@ -73,13 +73,10 @@ impl Airfoil {
     /// Reads a file: polars by Reynolds number if its name ends in `.polar`, else C81.
     pub fn read(path: &Path) -> Result<Self, AirfoilError> {
         let file = path.display().to_string();
-        let text = fs::read(path)
-            .map_err(|e| e.to_string())
-            .and_then(|bytes| String::from_utf8(bytes).map_err(|e| e.to_string()))
-            .map_err(|reason| AirfoilError::Unreadable {
-                file: file.clone(),
-                reason,
-            })?;
+        let text = text_file::read(path).map_err(|reason| AirfoilError::Unreadable {
+            file: file.clone(),
+            reason,
+        })?;
         if path
             .extension()
             .is_some_and(|e| e.eq_ignore_ascii_case("polar"))
@@ -202,12 +199,12 @@ mod tests {
     fn drag_outside_the_reynolds_range_follows_the_power_law_up_to_stall() {
         assert_eq!(drag(0.0, 1e5, 0.2), 0.01);
         assert_eq!(drag(0.0, 2e4, 0.0), 0.01);
-        assert!((drag(0.0, 2e4, 0.2) / (0.01 * 5.0_f64.powf(0.2)) - 1.0).abs() < 1e-14);
-        assert!((drag(0.0, 1e7, 0.2) / (0.01 * 0.01_f64.powf(0.2)) - 1.0).abs() < 1e-14);
+        assert!((drag(0.0, 2e4, 0.2) / (0.01 * libm::pow(5.0, 0.2)) - 1.0).abs() < 1e-14);
+        assert!((drag(0.0, 1e7, 0.2) / (0.01 * libm::pow(0.01, 0.2)) - 1.0).abs() < 1e-14);
         assert_eq!(drag(0.0, 10.0, 0.2), drag(0.0, 1e4, 0.2), "the floor");
         let added = drag(90.0, 2e4, 0.2) - 2.0;
         assert!(
-            (added / (0.04 * (5.0_f64.powf(0.2) - 1.0)) - 1.0).abs() < 1e-12,
+            (added / (0.04 * (libm::pow(5.0, 0.2) - 1.0)) - 1.0).abs() < 1e-12,
             "{added}"
         );
     }

@@ -16,8 +16,9 @@
 //! standard airfoil.
 
 use super::{Geometry, GeometryError, Rotation, Station};
+use crate::rotor::text_file;
 use serde::Deserialize;
-use std::{fs, path::Path};
+use std::path::Path;
 use thiserror::Error;
 
 /// What is wrong with a rotor file, and where.
@@ -81,9 +82,9 @@ impl Geometry {
     /// Reads and checks a rotor definition.
     pub fn read(path: &Path) -> Result<Self, RotorFileError> {
         let file = path.display().to_string();
-        let text = fs::read_to_string(path).map_err(|e| RotorFileError::Unreadable {
+        let text = text_file::read(path).map_err(|reason| RotorFileError::Unreadable {
             file: file.clone(),
-            reason: e.to_string(),
+            reason,
         })?;
         parse(&text, &file)
     }

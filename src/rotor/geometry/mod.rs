@@ -100,14 +100,18 @@ impl Geometry {
         let (Some(first), Some(last)) = (self.stations.first(), self.stations.last()) else {
             return fail("the blade has no stations; it needs two or more".into());
         };
-        if self.stations.len() < 2 || !(first.radius_ratio > 0.0) || last.radius_ratio != 1.0 {
+        if self.stations.len() < 2
+            || first.radius_ratio.is_nan()
+            || first.radius_ratio <= 0.0
+            || last.radius_ratio != 1.0
+        {
             return fail(
                 "the blade needs two or more stations, the first at r/R > 0, the last at r/R = 1"
                     .into(),
             );
         }
         for pair in self.stations.windows(2) {
-            if !(pair[1].radius_ratio > pair[0].radius_ratio) {
+            if pair[1].radius_ratio.is_nan() || pair[1].radius_ratio <= pair[0].radius_ratio {
                 return fail(format!(
                     "the blade stations must go outwards, but r/R = {} follows {}",
                     pair[1].radius_ratio, pair[0].radius_ratio

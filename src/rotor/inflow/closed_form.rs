@@ -33,6 +33,9 @@ use crate::rotor::{
 /// To which the flow through the disc is found, as a part of its bracket.
 const TOLERANCE: f64 = 1e-14;
 
+/// Speed of a section, m/s, below which it counts as standing still.
+const STANDSTILL: f64 = 1e-6;
+
 /// Flow down through the disc, m/s: eq. (94) times the tip speed.
 ///
 /// * `a`: sigma cl_alpha/16 times tip speed, > 0, m/s
@@ -54,8 +57,8 @@ fn through_flow(a: f64, climb: f64, pitch_flow: f64) -> f64 {
 /// The flow and the loads at one element.
 pub fn solve(annulus: &Annulus) -> Result<Load, RootError> {
     let rotation = annulus.in_plane;
-    if rotation == 0.0 {
-        // Small angles against a flow that does not turn: no load in this theory.
+    if rotation < STANDSTILL {
+        // Angles are small against a flow that turns; without one there is no load in this theory.
         return Ok(Load {
             angle_of_attack: annulus.pitch,
             ..Load::default()

@@ -1,0 +1,19 @@
+//! The C interface as an importer sees it: the shared library out of the packaged .fmu.
+
+mod support;
+
+mod abi {
+    mod arguments;
+    mod course;
+    mod exports;
+    mod extremes;
+    mod files;
+    mod legality;
+    mod logging;
+    mod many;
+    mod ownership;
+    mod random;
+    mod resources;
+    mod silence;
+    mod values;
+}

@@ -1,0 +1,264 @@
+//! Which function may be called in which state: every function in every state that this FMU
+//! enters, against the table of the standard (FMI 2.0.5, section 4.2.4, Co-Simulation).
+
+use crate::support::{
+    Instance,
+    c::{self, Component, EventInfo, Functions, Status},
+    instance::{bits, callbacks},
+};
+use helicopter_rotor::block::variables::{GUID, REALS};
+use std::{ffi::CString, ptr, sync::Mutex};
+
+/// The columns of the table.
+const STATES: [&str; 4] = [
+    "instantiated",
+    "Initialization Mode",
+    "stepComplete",
+    "terminated",
+];
+
+/// One letter for each state, in the order of `STATES`:
+/// `x` legal; `-` illegal; `o` legal, but an option that this FMU does not offer; `M` a function
+/// of Model Exchange.
+///
+/// fmi2Instantiate makes another instance, which does not depend on the state of this one.
+const TABLE: &str = "
+    fmi2GetTypesPlatform              xxxx
+    fmi2GetVersion                    xxxx
+    fmi2SetDebugLogging               xxxx
+    fmi2Instantiate                   xxxx
+    fmi2FreeInstance                  xxxx
+    fmi2SetupExperiment               x---
+    fmi2EnterInitializationMode       x---
+    fmi2ExitInitializationMode        -x--
+    fmi2Terminate                     --x-
+    fmi2Reset                         xxxx
+    fmi2GetReal                       -xxx
+    fmi2GetInteger                    -xxx
+    fmi2GetBoolean                    -xxx
+    fmi2GetString                     -xxx
+    fmi2SetReal                       xxx-
+    fmi2SetInteger                    xxx-
+    fmi2SetBoolean                    xxx-
+    fmi2SetString                     xxx-
+    fmi2GetFMUstate                   oooo
+    fmi2SetFMUstate                   oooo
+    fmi2FreeFMUstate                  oooo
+    fmi2SerializedFMUstateSize        oooo
+    fmi2SerializeFMUstate             oooo
+    fmi2DeSerializeFMUstate           oooo
+    fmi2GetDirectionalDerivative      -ooo
+    fmi2SetRealInputDerivatives       ooo-
+    fmi2GetRealOutputDerivatives      --oo
+    fmi2DoStep                        --x-
+    fmi2CancelStep                    ----
+    fmi2GetStatus                     --xx
+    fmi2GetRealStatus                 --xx
+    fmi2GetIntegerStatus              --oo
+    fmi2GetBooleanStatus              --xx
+    fmi2GetStringStatus               --xx
+    fmi2EnterEventMode                MMMM
+    fmi2NewDiscreteStates             MMMM
+    fmi2EnterContinuousTimeMode       MMMM
+    fmi2CompletedIntegratorStep       MMMM
+    fmi2SetTime                       MMMM
+    fmi2SetContinuousStates           MMMM
+    fmi2GetDerivatives                MMMM
+    fmi2GetEventIndicators            MMMM
+    fmi2GetContinuousStates           MMMM
+    fmi2GetNominalsOfContinuousStates MMMM
+";
+
+#[test]
+fn every_function_in_every_state_answers_as_the_table_of_the_standard_says() {
+    let rows: Vec<(&str, &str)> = TABLE
+        .lines()
+        .filter_map(|line| line.trim().split_once(' '))
+        .collect();
+    let mut names: Vec<&str> = rows.iter().map(|(name, _)| *name).collect();
+    let mut all = c::NAMES.to_vec();
+    names.sort_unstable();
+    all.sort_unstable();
+    assert_eq!(names, all, "the table must have each function once");
+
+    let undisturbed = finish(&in_state(0), 0);
+    for (name, letters) in rows {
+        assert_eq!(letters.trim().len(), STATES.len());
+        for (state, letter) in letters.trim().chars().enumerate() {
+            let cell = format!("{name} in the state {}", STATES[state]);
+            let instance = in_state(state);
+            if name == "fmi2FreeInstance" {
+                drop(instance); // calls it
+                continue;
+            }
+            let status = call(name, instance.functions, instance.component);
+            if letter == 'x' {
+                assert_eq!((status, instance.take_log()), (c::OK, vec![]), "{cell}");
+                continue;
+            }
+            let message = instance.refused(status);
+            assert!(message.contains(name), "{cell}: {message}");
+            let reason = match letter {
+                '-' => STATES[state],
+                'M' => "Model Exchange",
+                _ => "",
+            };
+            assert!(message.contains(reason), "{cell}: {message}");
+            let illegal = message.contains("must not be called in the state");
+            assert_eq!(illegal, letter == '-', "{cell}: {message}");
+            assert_eq!(
+                finish(&instance, state),
+                undisturbed,
+                "{cell}: the results must not change"
+            );
+        }
+    }
+}
+
+#[test]
+fn without_an_instance_every_function_refuses_and_none_crashes() {
+    let instance = Instance::running();
+    for name in c::NAMES {
+        if !["fmi2GetTypesPlatform", "fmi2GetVersion", "fmi2Instantiate"].contains(&name) {
+            let status = call(name, instance.functions, ptr::null_mut());
+            let expected = if name == "fmi2FreeInstance" {
+                c::OK
+            } else {
+                c::ERROR
+            };
+            assert_eq!(status, expected, "{name}");
+        }
+    }
+}
+
+/// A fresh instance in one of `STATES`.
+fn in_state(state: usize) -> Instance<'static> {
+    let instance = Instance::new();
+    if state >= 1 {
+        instance.begin_initialization();
+    }
+    if state >= 2 {
+        assert_eq!(instance.exit_initialization(), c::OK);
+    }
+    if state >= 3 {
+        assert_eq!(instance.terminate(), c::OK);
+    }
+    instance
+}
+
+/// Goes from a state on to the end by legal calls; all values there.
+fn finish(instance: &Instance, state: usize) -> Vec<u64> {
+    if state < 1 {
+        instance.begin_initialization();
+    }
+    if state < 2 {
+        assert_eq!(instance.exit_initialization(), c::OK);
+    }
+    if state < 3 {
+        assert_eq!(instance.step(0.0, 0.1), c::OK);
+        assert_eq!(instance.terminate(), c::OK);
+    }
+    assert_eq!(instance.take_log(), []);
+    bits(&instance.reals())
+}
+
+/// Calls a function with harmless arguments, or frees nothing. Where it answers no status, 0 says
+/// that its answer is good.
+fn call(name: &str, f: &Functions, c: Component) -> Status {
+    let reference = [0];
+    let (mut real, mut integer, mut text) = ([REALS[0].start], [4], [ptr::null()]);
+    let empty = [c"".as_ptr()];
+    let (mut size, mut state, mut bytes) = (0, ptr::null_mut(), [0; 8]);
+    let mut info = EventInfo::default();
+    let mut flag = [0, 0];
+    let (r, n) = (reference.as_ptr(), 1);
+    let (x, i) = (real.as_mut_ptr(), integer.as_mut_ptr());
+    // SAFETY: `c` is null or a living instance; all pointers are valid for the counts given.
+    unsafe {
+        match name {
+            "fmi2GetTypesPlatform" => (f.fmi2GetTypesPlatform)().is_null().into(),
+            "fmi2GetVersion" => (f.fmi2GetVersion)().is_null().into(),
+            "fmi2Instantiate" => instantiate_another(f),
+            "fmi2FreeInstance" => {
+                assert!(c.is_null(), "an instance is freed by its owner");
+                (f.fmi2FreeInstance)(c);
+                c::OK
+            }
+            "fmi2SetDebugLogging" => (f.fmi2SetDebugLogging)(c, 1, 0, ptr::null()),
+            "fmi2SetupExperiment" => (f.fmi2SetupExperiment)(c, 0, 0.0, 0.0, 0, 0.0),
+            "fmi2EnterInitializationMode" => (f.fmi2EnterInitializationMode)(c),
+            "fmi2ExitInitializationMode" => (f.fmi2ExitInitializationMode)(c),
+            "fmi2Terminate" => (f.fmi2Terminate)(c),
+            "fmi2Reset" => (f.fmi2Reset)(c),
+            "fmi2GetReal" => (f.fmi2GetReal)(c, r, n, x),
+            "fmi2GetInteger" => (f.fmi2GetInteger)(c, r, n, i),
+            "fmi2GetBoolean" => (f.fmi2GetBoolean)(c, ptr::null(), 0, ptr::null_mut()),
+            "fmi2GetString" => (f.fmi2GetString)(c, r, n, text.as_mut_ptr()),
+            "fmi2SetReal" => (f.fmi2SetReal)(c, r, n, x),
+            "fmi2SetInteger" => (f.fmi2SetInteger)(c, r, n, i),
+            "fmi2SetBoolean" => (f.fmi2SetBoolean)(c, ptr::null(), 0, ptr::null()),
+            "fmi2SetString" => (f.fmi2SetString)(c, r, n, empty.as_ptr()),
+            "fmi2GetFMUstate" => (f.fmi2GetFMUstate)(c, &mut state),
+            "fmi2SetFMUstate" => (f.fmi2SetFMUstate)(c, state),
+            "fmi2FreeFMUstate" => (f.fmi2FreeFMUstate)(c, &mut state),
+            "fmi2SerializedFMUstateSize" => (f.fmi2SerializedFMUstateSize)(c, state, &mut size),
+            "fmi2SerializeFMUstate" => (f.fmi2SerializeFMUstate)(c, state, bytes.as_mut_ptr(), 8),
+            "fmi2DeSerializeFMUstate" => {
+                (f.fmi2DeSerializeFMUstate)(c, bytes.as_ptr(), 8, &mut state)
+            }
+            "fmi2GetDirectionalDerivative" => {
+                (f.fmi2GetDirectionalDerivative)(c, r, n, r, n, [1.0].as_ptr(), x)
+            }
+            "fmi2EnterEventMode" => (f.fmi2EnterEventMode)(c),
+            "fmi2NewDiscreteStates" => (f.fmi2NewDiscreteStates)(c, &mut info),
+            "fmi2EnterContinuousTimeMode" => (f.fmi2EnterContinuousTimeMode)(c),
+            "fmi2CompletedIntegratorStep" => {
+                let [event, end] = &mut flag;
+                (f.fmi2CompletedIntegratorStep)(c, 1, event, end)
+            }
+            "fmi2SetTime" => (f.fmi2SetTime)(c, 0.0),
+            "fmi2SetContinuousStates" => (f.fmi2SetContinuousStates)(c, x, 0),
+            "fmi2GetDerivatives" => (f.fmi2GetDerivatives)(c, x, 0),
+            "fmi2GetEventIndicators" => (f.fmi2GetEventIndicators)(c, x, 0),
+            "fmi2GetContinuousStates" => (f.fmi2GetContinuousStates)(c, x, 0),
+            "fmi2GetNominalsOfContinuousStates" => (f.fmi2GetNominalsOfContinuousStates)(c, x, 0),
+            "fmi2SetRealInputDerivatives" => {
+                (f.fmi2SetRealInputDerivatives)(c, r, n, [1].as_ptr(), x)
+            }
+            "fmi2GetRealOutputDerivatives" => {
+                (f.fmi2GetRealOutputDerivatives)(c, r, n, [1].as_ptr(), x)
+            }
+            "fmi2DoStep" => (f.fmi2DoStep)(c, 0.0, 0.1, 1),
+            "fmi2CancelStep" => (f.fmi2CancelStep)(c),
+            "fmi2GetStatus" => (f.fmi2GetStatus)(c, c::DO_STEP_STATUS, i),
+            "fmi2GetRealStatus" => (f.fmi2GetRealStatus)(c, c::LAST_SUCCESSFUL_TIME, x),
+            // No kind of status is an Integer.
+            "fmi2GetIntegerStatus" => (f.fmi2GetIntegerStatus)(c, c::DO_STEP_STATUS, i),
+            "fmi2GetBooleanStatus" => (f.fmi2GetBooleanStatus)(c, c::TERMINATED, i),
+            "fmi2GetStringStatus" => {
+                (f.fmi2GetStringStatus)(c, c::PENDING_STATUS, text.as_mut_ptr())
+            }
+            _ => panic!("no call of {name}"),
+        }
+    }
+}
+
+fn instantiate_another(f: &Functions) -> Status {
+    let (log, guid) = (Mutex::default(), CString::new(GUID).unwrap());
+    let (name, nowhere) = (c"another".as_ptr(), ptr::null());
+    let callbacks = callbacks(&log);
+    // SAFETY: the pointers are null or valid during the call; the instance is freed at once.
+    unsafe {
+        let another = (f.fmi2Instantiate)(
+            name,
+            c::CO_SIMULATION,
+            guid.as_ptr(),
+            nowhere,
+            &callbacks,
+            0,
+            0,
+        );
+        (f.fmi2FreeInstance)(another);
+        if another.is_null() { c::ERROR } else { c::OK }
+    }
+}

@@ -1,0 +1,263 @@
+//! The log: what is said, when, in which category, and how it is passed.
+
+use crate::support::{
+    Creation, Fmu, Instance, c,
+    c::Text,
+    instance::{callbacks, logger},
+};
+use helicopter_rotor::block::variables::{GUID, LOG_CATEGORIES};
+use std::{
+    ffi::{CString, c_void},
+    ptr,
+    sync::{
+        Mutex,
+        atomic::{AtomicUsize, Ordering},
+    },
+};
+
+fn with_logging() -> Instance<'static> {
+    let creation = Creation {
+        logging_on: true,
+        ..Creation::default()
+    };
+    Instance::create(Fmu::shared(), &creation).unwrap()
+}
+
+/// A whole simulation without errors.
+fn clean_run(instance: &Instance) {
+    assert_eq!(
+        instance.set_string("geometry.file", "knight-hefner-3.toml"),
+        c::OK
+    );
+    instance.initialize();
+    assert_eq!(instance.set_real("collective", 0.1), c::OK);
+    assert_eq!(instance.step(0.0, 0.01), c::OK);
+    assert_eq!(instance.terminate(), c::OK);
+}
+
+#[test]
+fn a_clean_run_logs_nothing_while_logging_is_off() {
+    let instance = Instance::new();
+    clean_run(&instance);
+    assert_eq!(instance.take_log(), []);
+    let instance = with_logging();
+    assert_eq!(instance.set_debug_logging(false, &[]), c::OK);
+    clean_run(&instance);
+    assert_eq!(instance.take_log(), []);
+}
+
+#[test]
+fn with_logging_on_the_log_says_which_files_were_read() {
+    let instance = with_logging();
+    clean_run(&instance);
+    let log = instance.take_log();
+    for line in &log {
+        assert_eq!(
+            (line.status, line.category.as_str()),
+            (c::OK, "logEvents"),
+            "{line:?}"
+        );
+        assert_eq!(line.instance, "rotor");
+    }
+    for file in [
+        "rotors/knight-hefner-3.toml",
+        "airfoils/circle.polar",
+        "airfoils/naca0015-knight-hefner.polar",
+    ] {
+        let path = Fmu::shared().resources().join(file);
+        let path = path.to_str().unwrap();
+        let lines = log
+            .iter()
+            .filter(|line| line.message.contains(path))
+            .count();
+        assert_eq!(lines, 1, "{path} in {log:?}");
+    }
+}
+
+#[test]
+fn errors_are_logged_also_while_logging_is_off() {
+    let instance = Instance::new();
+    assert!(
+        instance
+            .refused(instance.step(0.0, 0.1))
+            .contains("fmi2DoStep")
+    );
+    assert_eq!(instance.set_debug_logging(false, &[]), c::OK);
+    assert!(
+        instance
+            .refused(instance.step(0.0, 0.1))
+            .contains("fmi2DoStep")
+    );
+}
+
+#[test]
+fn only_declared_categories_are_used() {
+    let description = std::fs::read_to_string(Fmu::shared().folder.join("modelDescription.xml"));
+    let description = description.unwrap();
+    for category in LOG_CATEGORIES {
+        assert!(
+            description.contains(&format!("<Category name=\"{category}\"")),
+            "{category}"
+        );
+    }
+    let instance = with_logging();
+    assert_eq!(instance.step(0.0, 0.1), c::ERROR);
+    assert_eq!(
+        instance.set_debug_logging(true, &["unheard-of"]),
+        c::WARNING
+    );
+    assert_eq!(instance.set_debug_logging(true, &[]), c::OK);
+    clean_run(&instance);
+    let log = instance.take_log();
+    for category in LOG_CATEGORIES {
+        // Each occurs in this run, the warning but when no category is left for it.
+        let found = log.iter().any(|line| line.category == category);
+        assert!(
+            found || category == "logStatusWarning",
+            "{category} in {log:?}"
+        );
+    }
+    assert!(
+        log.iter()
+            .all(|line| LOG_CATEGORIES.contains(&line.category.as_str())),
+        "{log:?}"
+    );
+}
+
+#[test]
+fn chosen_categories_alone_are_logged() {
+    for (chosen, error, events) in [
+        (&["logStatusError"][..], true, false),
+        (&["logEvents"], false, true),
+        (
+            &["logEvents", "logStatusError", "logStatusWarning"],
+            true,
+            true,
+        ),
+        (&["logStatusWarning"], false, false),
+        (&[], true, true),
+    ] {
+        let instance = Instance::new();
+        assert_eq!(instance.set_debug_logging(true, chosen), c::OK);
+        assert_eq!(
+            instance.step(0.0, 0.1),
+            c::ERROR,
+            "it is answered in any case"
+        );
+        clean_run(&instance);
+        let log = instance.take_log();
+        let logged = |category: &str| log.iter().any(|line| line.category == category);
+        assert_eq!(
+            (logged("logStatusError"), logged("logEvents")),
+            (error, events),
+            "{chosen:?}"
+        );
+    }
+}
+
+#[test]
+fn an_unknown_category_gives_a_warning_and_the_others_are_chosen() {
+    let instance = Instance::new();
+    let chosen = ["logStatusWarning", "logEverything", "logEvents"];
+    assert_eq!(instance.set_debug_logging(true, &chosen), c::WARNING);
+    let log = instance.take_log();
+    let [line] = &log[..] else {
+        panic!("one line is expected: {log:?}")
+    };
+    assert_eq!(
+        (line.status, line.category.as_str()),
+        (c::WARNING, "logStatusWarning")
+    );
+    for part in [
+        "fmi2SetDebugLogging",
+        "logEverything",
+        &LOG_CATEGORIES.join(", "),
+    ] {
+        assert!(line.message.contains(part), "{part} in {line:?}");
+    }
+    assert_eq!(instance.step(0.0, 0.1), c::ERROR);
+    assert_eq!(instance.take_log(), [], "errors were not chosen");
+    clean_run(&instance);
+    assert!(!instance.take_log().is_empty(), "events were");
+}
+
+/// The message is the format of a printf: a lone % would read arguments that are not there.
+#[test]
+fn percent_signs_arrive_escaped() {
+    let instance = Instance::new();
+    assert_eq!(
+        instance.set_string("airfoil.file", "100%s/%n%5d%%.polar"),
+        c::OK
+    );
+    instance.begin_initialization();
+    let message = instance.refused(instance.exit_initialization());
+    assert!(message.contains("100%%s/%%n%%5d%%%%.polar"), "{message}");
+    assert!(!message.replace("%%", "").contains('%'), "{message}");
+}
+
+#[test]
+fn messages_are_single_sentences_without_a_newline_at_the_end() {
+    let instance = with_logging();
+    clean_run(&instance);
+    assert_eq!(instance.step(0.0, 0.1), c::ERROR);
+    assert_eq!(
+        instance.set_debug_logging(true, &["unheard-of"]),
+        c::WARNING
+    );
+    for line in instance.take_log() {
+        assert!(
+            !line.message.contains('\n') && line.message.trim() == line.message,
+            "{line:?}"
+        );
+    }
+}
+
+#[test]
+fn each_instance_logs_to_its_own_environment_under_its_own_name() {
+    let create = |name: &'static [u8]| {
+        let creation = Creation {
+            name: Some(name),
+            ..Creation::default()
+        };
+        Instance::create(Fmu::shared(), &creation).unwrap()
+    };
+    let (one, two) = (create(b"main rotor"), create("Heckrotor ü 100%".as_bytes()));
+    assert_eq!(two.step(0.0, 0.1), c::ERROR);
+    assert_eq!(one.take_log(), []);
+    assert_eq!(two.take_log()[0].instance, "Heckrotor ü 100%");
+    assert_eq!(one.step(0.0, 0.1), c::ERROR);
+    assert_eq!(two.take_log(), []);
+    assert_eq!(one.take_log()[0].instance, "main rotor");
+}
+
+#[test]
+fn a_null_environment_is_handed_back_as_null() {
+    static CALLS: AtomicUsize = AtomicUsize::new(0);
+    unsafe extern "C" fn count(environment: *mut c_void, _: Text, _: c::Status, _: Text, _: Text) {
+        if environment.is_null() {
+            CALLS.fetch_add(1, Ordering::Relaxed);
+        }
+    }
+    let (log, guid) = (Mutex::default(), CString::new(GUID).unwrap());
+    let callbacks = c::Callbacks {
+        logger: Some(logger(count)),
+        environment: ptr::null_mut(),
+        ..callbacks(&log)
+    };
+    let f = &Fmu::shared().functions;
+    // SAFETY: the pointers are null or valid during the call; the instance is freed at its end.
+    unsafe {
+        let component = (f.fmi2Instantiate)(
+            c"rotor".as_ptr(),
+            c::CO_SIMULATION,
+            guid.as_ptr(),
+            ptr::null(),
+            &callbacks,
+            0,
+            0,
+        );
+        assert_eq!((f.fmi2DoStep)(component, 0.0, 0.1, 1), c::ERROR);
+        (f.fmi2FreeInstance)(component);
+    }
+    assert_eq!(CALLS.load(Ordering::Relaxed), 1);
+}
