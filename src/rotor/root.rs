@@ -30,7 +30,7 @@ pub struct End {
 ///
 /// * `first`, `last`: the ends, in either order. Their residuals steer the first steps only: where
 ///   just the sign at an end is known, any value of that sign will do.
-/// * `tolerance`: to which the root is found, in the unit of the places; not below their rounding.
+/// * `tolerance`: to which the root is found, in the unit of the places; raised to their rounding.
 pub fn bracketed(
     mut residual: impl FnMut(f64) -> f64,
     first: End,
@@ -52,6 +52,7 @@ pub fn bracketed(
     if (first.residual > 0.0) == (last.residual > 0.0) {
         return Err(RootError::NoSignChange);
     }
+    let tolerance = tolerance.max(2.0 * f64::EPSILON * first.at.abs().max(last.at.abs()));
     let bisections = {
         let width = (last.at - first.at).abs();
         libm::ceil(libm::log2((width / tolerance).max(1.0))) as u32 + 1
@@ -114,6 +115,10 @@ mod tests {
 
     /// Root and the number of evaluations that it takes, from the values at both ends.
     fn counted(f: impl Fn(f64) -> f64, a: f64, b: f64) -> (f64, u32) {
+        counted_to(f, a, b, 1e-13)
+    }
+
+    fn counted_to(f: impl Fn(f64) -> f64, a: f64, b: f64, tolerance: f64) -> (f64, u32) {
         let mut count = 0;
         let counting = |x| {
             count += 1;
@@ -123,7 +128,7 @@ mod tests {
             at,
             residual: f(at),
         };
-        let x = bracketed(counting, end(a), end(b), 1e-13).unwrap();
+        let x = bracketed(counting, end(a), end(b), tolerance).unwrap();
         (x, count)
     }
 
@@ -138,6 +143,13 @@ mod tests {
             assert!((x - 0.3).abs() < 2e-13, "{x}");
             assert!(count <= 90, "{count} evaluations on a step");
         }
+    }
+
+    #[test]
+    fn a_tolerance_below_the_rounding_of_the_places_is_raised_to_it() {
+        let (x, count) = counted_to(|x| (x - 1e6) - 3e-10, 1e6 - 1e-9, 1e6 + 1e-9, 1e-30);
+        assert!((x - 1e6).abs() < 1e-9);
+        assert!(count <= 6, "{count}");
     }
 
     #[test]
