@@ -18,6 +18,7 @@ use helicopter_rotor::{
         tip_loss::TipLoss,
     },
 };
+use nalgebra::Vector3;
 use std::{f64::consts::PI, fs, path::PathBuf};
 
 fn resources() -> PathBuf {
@@ -80,15 +81,16 @@ fn ideal(inflow: Inflow, tip_loss: TipLoss, chord: f64) -> Rotor {
 }
 
 fn fly(rotor: &mut Rotor, collective: f64, climb: f64) -> Performance {
-    let air = Air::new(1.2, 288.15);
-    rotor
-        .axial(&Operation {
-            collective,
-            speed: 100.0,
-            climb,
-            air,
-        })
-        .unwrap()
+    let operation = Operation {
+        collective,
+        cyclic_longitudinal: 0.0,
+        cyclic_lateral: 0.0,
+        speed: 100.0,
+        airspeed: Vector3::new(0.0, 0.0, climb),
+        angular_velocity: Vector3::zeros(),
+        air: Air::new(1.2, 288.15),
+    };
+    rotor.steady(&operation).unwrap()
 }
 
 /// A well-known code gives no thrust at exactly V = 0, another a dip there.
@@ -214,7 +216,11 @@ fn the_annulus_tends_to_the_closed_form_for_small_angles() {
     for tip_loss in [TipLoss::None, TipLoss::Prandtl, TipLoss::GessowMyers] {
         let difference = |pitch: f64| {
             // Solidity in proportion to the pitch keeps the inflow a fixed part of it.
-            let thrust = |inflow| fly(&mut ideal(inflow, tip_loss, 0.2 * pitch), pitch, 0.0).thrust;
+            let thrust = |inflow| {
+                fly(&mut ideal(inflow, tip_loss, 0.2 * pitch), pitch, 0.0)
+                    .force
+                    .z
+            };
             (thrust(Inflow::Annulus) / thrust(Inflow::AnnulusClosedForm) - 1.0).abs()
         };
         let (coarse, fine) = (difference(0.2), difference(0.1));
@@ -256,19 +262,14 @@ fn tilt_turns_the_hub_forces_into_the_ground_frame_and_the_flow_into_the_disc() 
             "{place}"
         );
     }
-    // Climbing along the tilted shaft is climb; moving across it is not.
+    // Climbing along the tilted shaft is climb, up to the rounding of the flow along the disc.
     let climb = thrust(&[(real::VELOCITY_3, 3.0)]);
-    let along = [
+    let along = thrust(&[
+        (real::TILT, tilt),
         (real::VELOCITY_1, 3.0 * tilt.sin()),
         (real::VELOCITY_3, 3.0 * tilt.cos()),
-    ];
-    let across = [
-        (real::VELOCITY_1, 3.0 * tilt.cos()),
-        (real::VELOCITY_3, -3.0 * tilt.sin()),
-    ];
-    let tilted = |velocity: &[(usize, f64)]| thrust(&[&[(real::TILT, tilt)], velocity].concat());
-    assert!((tilted(&along) / climb - 1.0).abs() < 1e-12);
-    assert!((tilted(&across) / t - 1.0).abs() < 1e-12);
+    ]);
+    assert!((along / climb - 1.0).abs() < 1e-12);
 }
 
 #[test]
@@ -338,7 +339,7 @@ fn every_model_is_finite_in_every_direction_of_flow_and_pitch() {
     block
         .set_integers(&[integer::NUMERICS__ELEMENTS as u32], &[8])
         .unwrap();
-    for models in (0..2 * 2 * 3 * 4).map(|i| [1 + i % 2, 1 + i / 2 % 2, 1 + i / 4 % 3, 1 + i / 12])
+    for models in (0..9 * 2 * 3 * 4).map(|i| [1 + i % 9, 1 + i / 9 % 2, 1 + i / 18 % 3, 1 + i / 54])
     {
         let places = [
             integer::MODEL__INFLOW,

@@ -190,3 +190,31 @@ fn the_ramp_of_collective_raises_the_thrust_step_by_step() {
         "{thrust:?}"
     );
 }
+
+/// Known of every helicopter: at constant thrust the induced power falls with forward speed, and
+/// the H-force grows.
+#[test]
+fn forward_flight_at_constant_thrust_needs_less_power_than_hover() {
+    let folder = scratch("forward-flight");
+    run(example("forward_flight.py").arg("--out").arg(&folder));
+    let text = fs::read_to_string(folder.join("forward-flight.csv")).unwrap();
+    for model in ["annulus", "uniform", "drees"] {
+        let header = text.lines().next().unwrap().to_owned();
+        let chosen = text.lines().filter(|line| line.starts_with(model));
+        let lines: Vec<String> = chosen.map(|line| line.replacen(model, "0", 1)).collect();
+        let rows = csv(&format!("{header}\n{}", lines.join("\n")));
+        assert_eq!(rows.len(), 15, "{model}");
+        for pair in rows.windows(2) {
+            assert!(
+                value(&pair[1], "power") < value(&pair[0], "power"),
+                "{model}: {pair:?}"
+            );
+            assert!(
+                value(&pair[1], "H") > value(&pair[0], "H"),
+                "{model}: {pair:?}"
+            );
+        }
+        let halved = value(&rows[14], "power") / value(&rows[0], "power");
+        assert!((0.35..0.55).contains(&halved), "{model}: {halved}");
+    }
+}

@@ -11,7 +11,7 @@ pub use location::path_from_uri;
 pub use setup::SetupError;
 pub use values::{Stage, ValueError, Values};
 
-use crate::rotor::{Operation, Performance, Rotor, SolveError, air::Air, geometry::Rotation};
+use crate::rotor::{Operation, Performance, Rotor, SolveError, air::Air};
 use core::f64::consts::{PI, SQRT_2};
 use nalgebra::{Matrix3, Vector3};
 use std::path::PathBuf;
@@ -116,7 +116,7 @@ impl RotorBlock {
 
     /// Makes the outputs those of the present inputs and parameters.
     ///
-    /// The models of axial flight have no memory, so that this is also a step in time.
+    /// The models have no memory, so that this is also a step in time.
     pub fn update(&mut self) -> Result<(), BlockError> {
         if self.current {
             return Ok(());
@@ -132,12 +132,15 @@ impl RotorBlock {
         let shaft = Shaft::new(&self.values.reals);
         let operation = Operation {
             collective: self.values.reals[real::COLLECTIVE],
+            cyclic_longitudinal: self.values.reals[real::CYCLIC_LONGITUDINAL],
+            cyclic_lateral: self.values.reals[real::CYCLIC_LATERAL],
             speed: self.values.reals[real::RPM] * PI / 30.0,
-            climb: shaft.axis().dot(&shaft.airspeed),
+            airspeed: shaft.airspeed,
+            angular_velocity: shaft.angular_velocity,
             air: air(&self.values)?,
         };
         let performance = rotor
-            .axial(&operation)
+            .steady(&operation)
             .map_err(|error| BlockError::Unsolved(error, inputs(&self.values)))?;
         let mut reals = self.values.reals;
         write_outputs(&mut reals, rotor, &operation, &performance, &shaft);
@@ -157,28 +160,40 @@ impl RotorBlock {
     }
 }
 
-/// The hub frame against the ground, and the hub's velocity through the air in the ground frame.
+/// The hub frame against the ground, and the hub's motion in the hub frame.
 struct Shaft {
     hub_to_ground: Matrix3<f64>,
+    /// Velocity through the air, m/s.
     airspeed: Vector3<f64>,
+    /// rad/s.
+    angular_velocity: Vector3<f64>,
 }
 
 impl Shaft {
-    /// The hub frame is the ground frame (x forward, y left, z up) turned by `tilt` about +y, so
-    /// that positive tilt leans the shaft forward.
+    /// The hub frame is the ground frame (x forward, y left, z up) turned by `tilt` about its y
+    /// axis, so that positive tilt leans the shaft forward, and then by `lateralTilt` about the x
+    /// axis that came of it, so that positive lateral tilt leans the shaft to the right.
     fn new(reals: &[f64]) -> Self {
-        let (sin, cos) = (libm::sin(reals[real::TILT]), libm::cos(reals[real::TILT]));
+        let turn = |place: usize| (libm::sin(reals[place]), libm::cos(reals[place]));
+        let (sin_y, cos_y) = turn(real::TILT);
+        let (sin_x, cos_x) = turn(real::LATERAL_TILT);
+        let tilt = Matrix3::new(cos_y, 0.0, sin_y, 0.0, 1.0, 0.0, -sin_y, 0.0, cos_y);
+        let lateral = Matrix3::new(1.0, 0.0, 0.0, 0.0, cos_x, -sin_x, 0.0, sin_x, cos_x);
+        let hub_to_ground = tilt * lateral;
+
         let vector = |x: usize, y: usize, z: usize| Vector3::new(reals[x], reals[y], reals[z]);
         let velocity = vector(real::VELOCITY_1, real::VELOCITY_2, real::VELOCITY_3);
         let wind = vector(real::WIND_1, real::WIND_2, real::WIND_3);
+        let angular_velocity = vector(
+            real::ANGULAR_VELOCITY_1,
+            real::ANGULAR_VELOCITY_2,
+            real::ANGULAR_VELOCITY_3,
+        );
         Self {
-            hub_to_ground: Matrix3::new(cos, 0.0, sin, 0.0, 1.0, 0.0, -sin, 0.0, cos),
-            airspeed: velocity - wind,
+            hub_to_ground,
+            airspeed: hub_to_ground.tr_mul(&(velocity - wind)),
+            angular_velocity: hub_to_ground.tr_mul(&angular_velocity),
         }
-    }
-
-    fn axis(&self) -> Vector3<f64> {
-        self.hub_to_ground.column(2).into()
     }
 }
 
@@ -205,15 +220,13 @@ fn write_outputs(
     performance: &Performance,
     shaft: &Shaft,
 ) {
-    let Performance { thrust, torque, .. } = *performance;
-    let geometry = rotor.geometry();
-    // The rotor's drag turns the hub against the turning sense.
-    let turning = match geometry.rotation {
-        Rotation::CounterClockwise => 1.0,
-        Rotation::Clockwise => -1.0,
-    };
-    let hub_force = Vector3::new(0.0, 0.0, thrust);
-    let hub_moment = Vector3::new(0.0, 0.0, -turning * torque);
+    let Performance {
+        force: hub_force,
+        moment: hub_moment,
+        torque,
+        ..
+    } = *performance;
+    let thrust = hub_force.z;
     let force = shaft.hub_to_ground * hub_force;
     let moment = shaft.hub_to_ground * hub_moment;
     for (places, vector) in [
@@ -234,6 +247,7 @@ fn write_outputs(
     }
 
     let air = &operation.air;
+    let geometry = rotor.geometry();
     let radius = geometry.radius;
     let tip_speed = operation.speed * radius;
     let reference_force = air.density * PI * radius * radius * tip_speed * tip_speed;
@@ -258,7 +272,9 @@ fn write_outputs(
         0.0
     };
     reals[real::INDUCED_VELOCITY] = performance.induced_velocity;
-    reals[real::INFLOW_RATIO] = per(operation.climb + performance.induced_velocity, tip_speed);
+    let airspeed = &operation.airspeed;
+    reals[real::INFLOW_RATIO] = per(airspeed.z + performance.induced_velocity, tip_speed);
+    reals[real::ADVANCE_RATIO] = per(libm::hypot(airspeed.x, airspeed.y), tip_speed);
     reals[real::STALLED_RADIUS] = performance.stalled_radius;
     reals[real::STALLED_FRACTION] = performance.stalled_fraction;
     reals[real::TIP_MACH] = tip_speed / air.speed_of_sound;

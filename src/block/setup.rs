@@ -12,7 +12,7 @@ use crate::rotor::{
     airfoil::{Airfoil, AirfoilError, Lift, SectionModel},
     compressibility::Compressibility,
     geometry::{self, Geometry, GeometryError, RotorFileError},
-    inflow::Inflow,
+    inflow::{Inflow, Skew},
     tip_loss::TipLoss,
 };
 use std::path::Path;
@@ -113,6 +113,13 @@ fn models(values: &Values) -> Result<Models, SetupError> {
         inflow: match choice(values, integer::MODEL__INFLOW, InflowModel::from_integer)? {
             InflowModel::Annulus => Inflow::Annulus,
             InflowModel::AnnulusClosedForm => Inflow::AnnulusClosedForm,
+            InflowModel::Uniform => Inflow::Disc(Skew::Uniform),
+            InflowModel::Coleman => Inflow::Disc(Skew::Coleman),
+            InflowModel::Drees => Inflow::Disc(Skew::Drees),
+            InflowModel::Payne => Inflow::Disc(Skew::Payne),
+            InflowModel::WhiteBlake => Inflow::Disc(Skew::WhiteBlake),
+            InflowModel::PittPeters => Inflow::Disc(Skew::PittPeters),
+            InflowModel::Howlett => Inflow::Disc(Skew::Howlett),
         },
         tip_loss: match choice(values, integer::MODEL__TIP_LOSS, TipLossModel::from_integer)? {
             TipLossModel::None => TipLoss::None,

@@ -282,11 +282,12 @@ mod tests {
             assert!(error.to_string().contains(part), "{error}");
             assert_eq!(values, before);
         }
-        let error = values.set_integers(Stage::Configuring, &[integer::MODEL__INFLOW as u32], &[9]);
+        let error =
+            values.set_integers(Stage::Configuring, &[integer::MODEL__INFLOW as u32], &[99]);
         let error = error.unwrap_err().to_string();
         assert!(
             error.contains(
-                "model.inflow = 9 is no choice; set one of 1 (annulusClosedForm), 2 (annulus)"
+                "model.inflow = 99 is no choice; set one of 1 (annulusClosedForm), 2 (annulus), 3"
             ),
             "{error}"
         );

@@ -4,6 +4,8 @@
 pub mod air;
 pub mod airfoil;
 pub mod compressibility;
+pub mod disc;
+pub mod element;
 pub mod geometry;
 pub mod inflow;
 pub mod root;
@@ -13,8 +15,12 @@ pub mod tip_loss;
 
 use air::Air;
 use airfoil::{Airfoil, SectionModel, Similarity};
-use geometry::{Elements, Geometry};
-use inflow::{Annulus, Inflow, Load, Section, annulus, closed_form};
+use core::f64::consts::PI;
+use disc::{Azimuths, DiscFlow, Turn, WindAxes};
+use element::{Element, LossIn, Section};
+use geometry::{Elements, Geometry, Rotation};
+use inflow::{Field, Inflow, Skew, annulus, closed_form, uniform};
+use nalgebra::Vector3;
 use root::RootError;
 use thiserror::Error;
 use tip_loss::TipLoss;
@@ -27,38 +33,63 @@ pub struct Models {
     pub section: SectionModel,
 }
 
-/// What the rotor does, and in which air. SI units, rad.
+/// What the rotor does, and in which air. SI units, rad; vectors in the hub frame (x forward, y
+/// left, z up along the shaft).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Operation {
-    /// Blade pitch at the reference radius.
+    /// Blade pitch at the reference radius is collective - cyclic_lateral cos(psi) -
+    /// cyclic_longitudinal sin(psi), psi from the tail in the turning sense.
     pub collective: f64,
-    /// Omega >= 0, rad/s.
+    pub cyclic_longitudinal: f64,
+    pub cyclic_lateral: f64,
+    /// Omega >= 0, of the rotor against the hub, rad/s.
     pub speed: f64,
-    /// Speed of the hub through the air along the shaft, m/s; climb is positive.
-    pub climb: f64,
+    /// Velocity of the hub through the air, m/s.
+    pub airspeed: Vector3<f64>,
+    /// Angular velocity of the hub, rad/s.
+    pub angular_velocity: Vector3<f64>,
     pub air: Air,
 }
 
-/// What the rotor answers, along its shaft. SI units.
+/// What the rotor answers, as the mean over a turn. SI units, vectors in the hub frame.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Performance {
-    pub thrust: f64,
+    /// Force on the hub, and moment on it about its centre.
+    pub force: Vector3<f64>,
+    pub moment: Vector3<f64>,
     /// Torque that the rotor absorbs.
     pub torque: f64,
     /// Mean over the swept annulus from cutout to tip, positive down.
     pub induced_velocity: f64,
-    /// r/R of the outermost stalled element's middle, 0 if none is stalled.
+    /// r/R of the outermost stalled element's middle at any azimuth, 0 if none is stalled.
     pub stalled_radius: f64,
-    /// Share of the blade span that is stalled.
+    /// Share of the blade span that is stalled, mean over the disc.
     pub stalled_fraction: f64,
 }
 
-/// A blade element for which no flow was found.
+/// The loads and the flow at a blade element, as means over a turn. SI units, rad.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Load {
+    /// Thrust of all blades per unit of radius, N/m.
+    pub thrust: f64,
+    /// Torque absorbed by all blades per unit of radius, N.
+    pub torque: f64,
+    pub angle_of_attack: f64,
+    /// Induced velocity at the blades, positive down, m/s.
+    pub induced_velocity: f64,
+    /// Its mean around the annulus, m/s: tip loss is the difference.
+    pub mean_induced_velocity: f64,
+    /// Speed of the flow that meets the section, m/s.
+    pub speed: f64,
+}
+
+/// A disc or a blade element for which no flow was found.
 #[derive(Debug, Error, Clone, Copy, PartialEq)]
-#[error("the inflow at r/R = {radius_ratio:.3} has no solution: {cause}")]
-pub struct SolveError {
-    pub radius_ratio: f64,
-    pub cause: RootError,
+pub enum SolveError {
+    #[error("the inflow at r/R = {radius_ratio:.3} has no solution: {cause}")]
+    Annulus { radius_ratio: f64, cause: RootError },
+    #[error("the mean inflow of the disc has no solution: {0}")]
+    Disc(RootError),
 }
 
 /// A rotor, cut into elements and ready to compute; it owns the memory that a computation needs.
@@ -69,8 +100,20 @@ pub struct Rotor {
     models: Models,
     elements: Elements,
     lifting_share: Vec<f64>,
+    azimuths: Azimuths,
     /// The last computation, by element.
     loads: Vec<Load>,
+}
+
+/// Sums over elements and azimuths, in the axes of the disc's flow.
+#[derive(Default)]
+struct Sums {
+    force: Vector3<f64>,
+    moment: Vector3<f64>,
+    flux: f64,
+    area: f64,
+    stalled: f64,
+    stalled_radius: f64,
 }
 
 impl Rotor {
@@ -80,25 +123,20 @@ impl Rotor {
         debug_assert_eq!(airfoils.len(), geometry.airfoils.len());
         let elements = Elements::new(&geometry, count);
         let half = 0.5 * elements.width;
-        let lifting_share = elements
-            .radius
-            .iter()
-            .map(|r| {
-                models.tip_loss.lifting_share(
-                    r - half,
-                    r + half,
-                    geometry.radius,
-                    geometry.tip_chord,
-                )
-            })
-            .collect();
+        let share = |r: &f64| {
+            let (tip, chord) = (geometry.radius, geometry.tip_chord);
+            models
+                .tip_loss
+                .lifting_share(r - half, r + half, tip, chord)
+        };
         Self {
+            lifting_share: elements.radius.iter().map(share).collect(),
             loads: vec![Load::default(); elements.len()],
+            azimuths: Azimuths::default(),
             geometry,
             airfoils,
             models,
             elements,
-            lifting_share,
         }
     }
 
@@ -111,41 +149,143 @@ impl Rotor {
         (&self.elements.radius, &self.loads)
     }
 
-    /// Computes the rotor in steady axial flow. Allocates nothing.
-    pub fn axial(&mut self, operation: &Operation) -> Result<Performance, SolveError> {
-        let mut sums = Performance::default();
-        let (mut flux, mut area, mut stalled) = (0.0, 0.0, 0usize);
-        for i in 0..self.elements.len() {
-            let annulus = self.annulus(i, operation);
-            let load = match self.models.inflow {
-                Inflow::Annulus => annulus::solve(&annulus),
-                Inflow::AnnulusClosedForm => closed_form::solve(&annulus),
-            }
-            .map_err(|cause| SolveError {
-                radius_ratio: self.elements.radius[i] / self.geometry.radius,
-                cause,
-            })?;
-            let is_stalled = self.is_stalled(&annulus, &load);
-            self.loads[i] = load;
+    /// Computes the rotor in steady flight, averaged over a turn. Allocates nothing.
+    ///
+    /// The blades are rigid and do not flap. A clockwise rotor is computed as the mirror image of
+    /// a counter-clockwise one.
+    pub fn steady(&mut self, operation: &Operation) -> Result<Performance, SolveError> {
+        let mirror = match self.geometry.rotation {
+            Rotation::CounterClockwise => 1.0,
+            Rotation::Clockwise => -1.0,
+        };
+        let Operation {
+            airspeed,
+            angular_velocity,
+            ..
+        } = operation;
+        let axes = WindAxes::new(airspeed.x, mirror * airspeed.y);
+        let (roll_rate, pitch_rate) =
+            axes.into_wind(mirror * angular_velocity.x, angular_velocity.y);
+        // Cyclic pitch is -cos(psi) and -sin(psi) times these: it turns like (x, y) as well.
+        let (cyclic_cos, cyclic_sin) =
+            axes.into_wind(operation.cyclic_lateral, operation.cyclic_longitudinal);
+        let flow = DiscFlow {
+            rotation: operation.speed + mirror * angular_velocity.z,
+            edgewise: libm::hypot(airspeed.x, airspeed.y),
+            climb: airspeed.z,
+            roll_rate,
+            pitch_rate,
+            cyclic_cos,
+            cyclic_sin,
+        };
+        let sums = self.sums(&flow, operation)?;
 
-            sums.thrust += load.thrust * self.elements.width;
-            sums.torque += load.torque * self.elements.width;
-            flux += load.mean_induced_velocity * self.elements.radius[i];
-            area += self.elements.radius[i];
-            if is_stalled {
-                stalled += 1;
-                sums.stalled_radius = self.elements.radius[i] / self.geometry.radius;
+        let (force_x, force_y) = axes.out_of_wind(sums.force.x, sums.force.y);
+        let (moment_x, moment_y) = axes.out_of_wind(sums.moment.x, sums.moment.y);
+        Ok(Performance {
+            force: Vector3::new(force_x, mirror * force_y, sums.force.z),
+            moment: Vector3::new(mirror * moment_x, moment_y, mirror * sums.moment.z),
+            torque: -sums.moment.z,
+            induced_velocity: sums.flux / sums.area,
+            stalled_radius: sums.stalled_radius,
+            stalled_fraction: sums.stalled / self.elements.len() as f64,
+        })
+    }
+
+    fn sums(&mut self, flow: &DiscFlow, operation: &Operation) -> Result<Sums, SolveError> {
+        let mut sums = Sums::default();
+        let field = match self.models.inflow {
+            Inflow::Disc(skew) => Some(self.field(skew, flow, operation)?),
+            Inflow::Annulus | Inflow::AnnulusClosedForm => None,
+        };
+        for i in 0..self.elements.len() {
+            let element = self.element(i, operation);
+            let mut turn = Turn::new(&element, flow, self.azimuths.of(flow));
+            let unsolved = |cause| SolveError::Annulus {
+                radius_ratio: element.radius_ratio(),
+                cause,
+            };
+            let mean_induced = match (&field, self.models.inflow) {
+                (Some(field), _) => {
+                    turn.fly(LossIn::Lift, |azimuth| {
+                        field.at(element.radius_ratio(), azimuth)
+                    });
+                    field.mean
+                }
+                (None, Inflow::AnnulusClosedForm) => {
+                    let rotation = flow.rotation * element.radius;
+                    let answer =
+                        closed_form::solve(&element, rotation, flow.climb).map_err(unsolved)?;
+                    turn.take(&answer.load, answer.induced);
+                    answer.mean_induced
+                }
+                (None, _) => {
+                    let answer = annulus::solve(&element, flow, turn.azimuths).map_err(unsolved)?;
+                    turn.fly(LossIn::Momentum, |_| answer.induced);
+                    answer.mean_axial
+                }
+            };
+            let width = self.elements.width;
+            sums.force += turn.force * width;
+            sums.moment += turn.moment * width;
+            sums.flux += mean_induced * element.radius;
+            sums.area += element.radius;
+            sums.stalled += turn.stalled;
+            if turn.stalled > 0.0 {
+                sums.stalled_radius = element.radius_ratio();
             }
+            self.loads[i] = turn.load(mean_induced);
         }
-        sums.induced_velocity = flux / area;
-        sums.stalled_fraction = stalled as f64 / self.elements.len() as f64;
         Ok(sums)
     }
 
-    fn annulus(&self, i: usize, operation: &Operation) -> Annulus<'_> {
+    /// Glauert's mean inflow and its distribution.
+    fn field(
+        &self,
+        skew: Skew,
+        flow: &DiscFlow,
+        operation: &Operation,
+    ) -> Result<Field, SolveError> {
+        let radius = self.geometry.radius;
+        let tip_speed = flow.rotation.abs() * radius;
+        let distributed = |mean: f64| {
+            let ratio = |speed: f64| {
+                if tip_speed > 0.0 {
+                    speed / tip_speed
+                } else {
+                    0.0
+                }
+            };
+            let coefficients = skew.coefficients(ratio(flow.edgewise), ratio(flow.climb + mean));
+            Field { mean, coefficients }
+        };
+        let density_area = operation.air.density * PI * radius * radius;
+        let thrust = |mean: f64| {
+            let field = distributed(mean);
+            let mut thrust = 0.0;
+            for i in 0..self.elements.len() {
+                let element = self.element(i, operation);
+                let mut turn = Turn::new(&element, flow, self.azimuths.of(flow));
+                turn.fly(LossIn::Lift, |azimuth| {
+                    field.at(element.radius_ratio(), azimuth)
+                });
+                thrust += turn.force.z * self.elements.width;
+            }
+            thrust / density_area
+        };
+        let scale = tip_speed + flow.edgewise + flow.climb.abs();
+        if scale == 0.0 {
+            return Ok(Field::default());
+        }
+        let mean = uniform::mean_velocity(flow.edgewise, flow.climb, scale, thrust)
+            .map_err(SolveError::Disc)?;
+        Ok(distributed(mean))
+    }
+
+    fn element(&self, i: usize, operation: &Operation) -> Element<'_> {
         let (elements, air) = (&self.elements, &operation.air);
         let chord = elements.chord[i];
-        Annulus {
+        Element {
             blades: f64::from(self.geometry.blades),
             radius: elements.radius[i],
             tip_radius: self.geometry.radius,
@@ -159,25 +299,11 @@ impl Rotor {
                 outer_share: elements.outer_share[i],
             },
             model: &self.models.section,
-            in_plane: operation.speed * elements.radius[i],
-            through: operation.climb,
             unit_flow: Similarity {
                 reynolds: air.density * chord / air.viscosity,
                 mach: 1.0 / air.speed_of_sound,
             },
             density: air.density,
         }
-    }
-
-    /// Whether the section is beyond the first peak of its lift. Still air stalls nothing.
-    fn is_stalled(&self, annulus: &Annulus, load: &Load) -> bool {
-        let flow = annulus.similarity(load.speed);
-        let limit = |side: fn((f64, f64)) -> f64| {
-            annulus
-                .section
-                .mixed(|airfoil| side(airfoil.stall_angles(flow)))
-        };
-        let alpha = airfoil::wrapped(load.angle_of_attack);
-        load.speed > 0.0 && (alpha < limit(|s| s.0) || alpha > limit(|s| s.1))
     }
 }

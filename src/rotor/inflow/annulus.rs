@@ -36,9 +36,26 @@
 //! before phi0/2, at which 4 F |sin phi| sin(phi - phi0) is largest for F = 1; else the air is
 //! pushed down through the disc as in hover (momentum theory as such, which is no longer a good
 //! theory there).
+//!
+//! Flow along the disc, cyclic pitch and angular velocity of the hub. The induced velocity stays
+//! the same all around the annulus, perpendicular to the mean flow W; the lift is averaged over
+//! the azimuth, and the mass flow is Glauert's resultant sqrt(V_x^2 + (W sin phi)^2) (1926, ARC
+//! R&M 1111), so that
+//!
+//! ```text
+//! R(phi) = 4 F sqrt(V_x^2 + (W sin phi)^2)/U sin(phi - phi0)
+//!          - s mean((W_psi/U)^2 cl_psi cos(phi_psi - phi)),
+//! ```
+//!
+//! which is the equation above times cos(phi - phi0) where all azimuths are alike. The lift is
+//! projected on the direction of the induced velocity, and so is the momentum. On the far side
+//! of the bracket the mean flow W vanishes; where strong flow along a slow disc leaves the sign
+//! of R unchanged even there, that end is taken: the rotor then brings its own air to rest.
 
-use super::{Annulus, Load};
+use super::Induced;
 use crate::rotor::{
+    disc::{Azimuth, DiscFlow},
+    element::Element,
     root::{End, RootError, bracketed},
     scalar::Scalar,
 };
@@ -47,52 +64,115 @@ use core::f64::consts::FRAC_PI_2;
 /// To which the inflow angle is found, rad.
 const TOLERANCE: f64 = 1e-14;
 
-/// The undisturbed flow: speed U and angle phi0.
+/// The mean of the undisturbed flow around the annulus: speed U and angle phi0.
 #[derive(Clone, Copy)]
 struct Undisturbed {
     speed: f64,
     angle: f64,
 }
 
-/// The residual R(phi), dimensionless.
-fn residual<S: Scalar>(annulus: &Annulus, undisturbed: Undisturbed, inflow_angle: S) -> S {
+/// What the annulus answers: the induced velocity at the blades, and the mean of its axial part
+/// around the annulus, m/s.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Answer {
+    pub induced: Induced,
+    pub mean_axial: f64,
+}
+
+/// The residual R(phi) where all azimuths are alike, dimensionless.
+fn axial_residual<S: Scalar>(element: &Element, undisturbed: Undisturbed, inflow_angle: S) -> S {
     let sin_inflow = inflow_angle.sin();
     let induced_angle = inflow_angle - undisturbed.angle;
     let across = induced_angle.cos();
-    let factor = annulus.tip_loss.factor(
-        annulus.blades,
-        annulus.radius / annulus.tip_radius,
-        sin_inflow,
-    );
-    let lift = annulus.lift_coefficient(-inflow_angle + annulus.pitch, across * undisturbed.speed);
-    factor * sin_inflow.abs() * induced_angle.sin() * 4.0 - lift * across * annulus.solidity()
+    let factor = element.tip_loss_factor(sin_inflow);
+    let lift = element.lift_coefficient(-inflow_angle + element.pitch, across * undisturbed.speed);
+    factor * sin_inflow.abs() * induced_angle.sin() * 4.0 - lift * across * element.solidity()
 }
 
-/// The flow and the loads at one element.
+/// The residual R(phi) of the mean over azimuths, dimensionless.
+fn mean_residual(
+    element: &Element,
+    flow: &DiscFlow,
+    azimuths: &[Azimuth],
+    undisturbed: Undisturbed,
+    inflow_angle: f64,
+) -> f64 {
+    let induced = induced(undisturbed, inflow_angle);
+    let mean_through = flow.climb + induced.axial;
+    let (sin_inflow, cos_inflow) = (Scalar::sin(inflow_angle), Scalar::cos(inflow_angle));
+    let speed = undisturbed.speed;
+    let mut lift = 0.0;
+    for azimuth in azimuths {
+        let meets = flow.meets(element.radius, *azimuth);
+        let (in_plane, through) = (
+            meets.in_plane - induced.swirl,
+            meets.through + induced.axial,
+        );
+        let square = in_plane * in_plane + through * through;
+        let local_speed = libm::sqrt(square);
+        let alpha = element.pitch + meets.cyclic - libm::atan2(through, in_plane);
+        // W_psi^2 cos(phi_psi - phi) = W_psi (W_psi cos phi_psi cos phi + W_psi sin phi_psi sin phi)
+        let projected = local_speed * (in_plane * cos_inflow + through * sin_inflow);
+        lift += element.lift_coefficient(alpha, local_speed) * projected;
+    }
+    lift /= azimuths.len() as f64 * speed * speed;
+    let resultant = libm::hypot(flow.edgewise, mean_through) / speed;
+    let induced_part = Scalar::sin(inflow_angle - undisturbed.angle);
+    4.0 * element.tip_loss_factor(sin_inflow) * resultant * induced_part - element.solidity() * lift
+}
+
+/// The velocity induced at an inflow angle, without taking a difference of large numbers.
+fn induced(undisturbed: Undisturbed, inflow_angle: f64) -> Induced {
+    let magnitude = undisturbed.speed * Scalar::sin(inflow_angle - undisturbed.angle);
+    Induced {
+        axial: magnitude * Scalar::cos(inflow_angle),
+        swirl: magnitude * Scalar::sin(inflow_angle),
+    }
+}
+
+/// What an element's annulus induces in a flow, averaged over `azimuths`.
 ///
 /// Fails only if the airfoil's or the flow's numbers are not finite, or so large that they overflow.
-pub fn solve(annulus: &Annulus) -> Result<Load, RootError> {
+pub fn solve(
+    element: &Element,
+    flow: &DiscFlow,
+    azimuths: &[Azimuth],
+) -> Result<Answer, RootError> {
+    let rotation = flow.rotation * element.radius;
     let undisturbed = Undisturbed {
-        speed: libm::hypot(annulus.in_plane, annulus.through),
-        angle: libm::atan2(annulus.through, annulus.in_plane),
+        speed: libm::hypot(rotation, flow.climb),
+        angle: libm::atan2(flow.climb, rotation),
     };
     if undisturbed.speed == 0.0 {
-        return Ok(Load {
-            angle_of_attack: annulus.pitch,
-            ..Load::default()
-        });
+        return Ok(Answer::default());
     }
-    let inflow_angle = inflow_angle(annulus, undisturbed)?;
-    Ok(load(annulus, undisturbed, inflow_angle))
+    let inflow_angle = if flow.is_axisymmetric() {
+        root(undisturbed, element.pitch, |phi| {
+            axial_residual(element, undisturbed, phi)
+        })?
+    } else {
+        root(undisturbed, element.pitch, |phi| {
+            mean_residual(element, flow, azimuths, undisturbed, phi)
+        })?
+    };
+    let induced = induced(undisturbed, inflow_angle);
+    let factor = element.tip_loss_factor(Scalar::sin(inflow_angle));
+    Ok(Answer {
+        induced,
+        mean_axial: factor * induced.axial,
+    })
 }
 
-fn inflow_angle(annulus: &Annulus, undisturbed: Undisturbed) -> Result<f64, RootError> {
-    let equation = |phi: f64| residual(annulus, undisturbed, phi);
+fn root(
+    undisturbed: Undisturbed,
+    pitch: f64,
+    equation: impl Fn(f64) -> f64,
+) -> Result<f64, RootError> {
     let end = |at: f64| End {
         at,
         residual: equation(at),
     };
-    let search = |from: End, to: End| bracketed(equation, from, to, TOLERANCE);
+    let search = |from: End, to: End| bracketed(&equation, from, to, TOLERANCE);
 
     let start = end(undisturbed.angle);
     if start.residual == 0.0 {
@@ -110,8 +190,8 @@ fn inflow_angle(annulus: &Annulus, undisturbed: Undisturbed) -> Result<f64, Root
     let far = start.at + side * FRAC_PI_2;
     // A tighter bracket: without lift, at phi = theta of a symmetrical section, R has the sign of
     // the side, which is checked rather than assumed.
-    if side * (annulus.pitch - from.at) > 0.0 && side * (far - annulus.pitch) > 0.0 {
-        let pitch = end(annulus.pitch);
+    if side * (pitch - from.at) > 0.0 && side * (far - pitch) > 0.0 {
+        let pitch = end(pitch);
         if pitch.residual * side > 0.0 {
             return search(from, pitch);
         }
@@ -123,27 +203,4 @@ fn inflow_angle(annulus: &Annulus, undisturbed: Undisturbed) -> Result<f64, Root
             residual: -from.residual,
         },
     )
-}
-
-fn load(annulus: &Annulus, undisturbed: Undisturbed, inflow_angle: f64) -> Load {
-    let (sin, cos) = (Scalar::sin(inflow_angle), Scalar::cos(inflow_angle));
-    let induced_angle = inflow_angle - undisturbed.angle;
-    let speed = undisturbed.speed * Scalar::cos(induced_angle);
-    let angle_of_attack = annulus.pitch - inflow_angle;
-    let lift = annulus.lift_coefficient(angle_of_attack, speed);
-    let drag = annulus.drag_coefficient(angle_of_attack, speed);
-    let pressure = 0.5 * annulus.density * speed * speed * annulus.chord * annulus.blades;
-    // The axial part of the induced velocity, W sin(phi) - V, without taking a difference.
-    let induced_velocity = undisturbed.speed * Scalar::sin(induced_angle) * cos;
-    let factor = annulus
-        .tip_loss
-        .factor(annulus.blades, annulus.radius / annulus.tip_radius, sin);
-    Load {
-        thrust: pressure * (lift * cos - drag * sin),
-        torque: pressure * (lift * sin + drag * cos) * annulus.radius,
-        angle_of_attack,
-        induced_velocity,
-        mean_induced_velocity: factor * induced_velocity,
-        speed,
-    }
 }

@@ -22,13 +22,21 @@
 //! Tip loss. Prandtl's F multiplies the momentum, A becomes A/F (Leishman 2006, eq. 3.126), and F
 //! depends on lambda: one bracketed unknown.
 
-use super::{Annulus, Load};
 use crate::rotor::{
-    airfoil::Airfoil,
+    airfoil::{Airfoil, wrapped},
+    element::{Element, SectionLoad},
     root::{End, RootError, bracketed},
-    scalar::Scalar,
     tip_loss::TipLoss,
 };
+
+/// What the closed form answers for an element. SI units.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct ClosedForm {
+    pub load: SectionLoad,
+    /// Induced velocity at the blade, and its mean around the annulus, positive down.
+    pub induced: f64,
+    pub mean_induced: f64,
+}
 
 /// To which the flow through the disc is found, as a part of its bracket.
 const TOLERANCE: f64 = 1e-14;
@@ -54,79 +62,81 @@ fn through_flow(a: f64, climb: f64, pitch_flow: f64) -> f64 {
     libm::sqrt(half * half + 2.0 * a * pitch_flow) - half
 }
 
-/// The flow and the loads at one element.
-pub fn solve(annulus: &Annulus) -> Result<Load, RootError> {
-    let rotation = annulus.in_plane;
+/// The flow and the loads at one element, axial flow only: `rotation` is Omega r, `climb` the flow
+/// down through the disc, both m/s.
+pub fn solve(element: &Element, rotation: f64, climb: f64) -> Result<ClosedForm, RootError> {
     if rotation < STANDSTILL {
         // Angles are small against a flow that turns; without one there is no load in this theory.
-        return Ok(Load {
-            angle_of_attack: annulus.pitch,
-            ..Load::default()
-        });
+        return Ok(ClosedForm::default());
     }
-    let flow = annulus.similarity(rotation);
+    let flow = element.similarity(rotation);
     let (slope, zero_lift) = {
-        let line = |airfoil: &Airfoil| airfoil.lift_line(annulus.model, flow);
-        let slope = annulus.section.mixed(|airfoil| line(airfoil).0);
-        let moment = annulus
+        let line = |airfoil: &Airfoil| airfoil.lift_line(element.model, flow);
+        let slope = element.section.mixed(|airfoil| line(airfoil).0);
+        let moment = element
             .section
             .mixed(|airfoil| line(airfoil).0 * line(airfoil).1);
-        (
-            slope * annulus.lifting_share,
-            if slope == 0.0 { 0.0 } else { moment / slope },
-        )
+        let zero_lift = if slope == 0.0 { 0.0 } else { moment / slope };
+        (slope * element.lifting_share, zero_lift)
     };
-    let pitch = annulus.pitch - zero_lift;
+    let pitch = element.pitch - zero_lift;
 
     // The compressibility rules depend on the lift coefficient: eq. (94) once with the
     // incompressible slope for the lift, and again with the slope corrected at that lift.
-    let through = loaded_flow(annulus, slope, pitch)?;
+    let through = loaded_flow(element, rotation, climb, slope, pitch)?;
     let lift = slope * (pitch - through / rotation);
     let corrected = if lift == 0.0 {
         slope
     } else {
-        let at_mach = |airfoil: &Airfoil| airfoil.compressible(annulus.model, lift, flow.mach);
-        slope * annulus.section.mixed(at_mach) / lift
+        let at_mach = |airfoil: &Airfoil| airfoil.compressible(element.model, lift, flow.mach);
+        slope * element.section.mixed(at_mach) / lift
     };
     let through = if corrected == slope {
         through
     } else {
-        loaded_flow(annulus, corrected, pitch)?
+        loaded_flow(element, rotation, climb, corrected, pitch)?
     };
 
     let inflow_angle = through / rotation;
-    let angle_of_attack = annulus.pitch - inflow_angle;
+    let angle_of_attack = wrapped(element.pitch - inflow_angle);
     let lift = corrected * (pitch - inflow_angle);
-    let drag = annulus.drag_coefficient(angle_of_attack, rotation);
-    let pressure = 0.5 * annulus.density * rotation * rotation * annulus.chord * annulus.blades;
-    let induced_velocity = through - annulus.through;
-    Ok(Load {
-        thrust: pressure * lift,
-        torque: pressure * (inflow_angle * lift + drag) * annulus.radius,
-        angle_of_attack,
-        induced_velocity,
-        mean_induced_velocity: induced_velocity * factor(annulus, through),
-        speed: rotation,
+    let drag = element.drag_coefficient(angle_of_attack, rotation);
+    let pressure = 0.5 * element.density * rotation * rotation * element.chord;
+    let induced = through - climb;
+    Ok(ClosedForm {
+        load: SectionLoad {
+            normal: pressure * lift,
+            tangential: pressure * (inflow_angle * lift + drag),
+            angle_of_attack,
+            speed: rotation,
+        },
+        induced,
+        mean_induced: induced * factor(element, rotation, through),
     })
 }
 
 /// Flow through the disc with tip loss.
-fn loaded_flow(annulus: &Annulus, slope: f64, pitch: f64) -> Result<f64, RootError> {
+fn loaded_flow(
+    element: &Element,
+    rotation: f64,
+    climb: f64,
+    slope: f64,
+    pitch: f64,
+) -> Result<f64, RootError> {
     if slope <= 0.0 {
-        return Ok(annulus.through); // no lift, nothing induced
+        return Ok(climb); // no lift, nothing induced
     }
-    let rotation = annulus.in_plane;
     // sigma Omega R/16 with sigma = N c/(pi R) is (N c/(2 pi r)) Omega r/8.
-    let a = annulus.solidity() * slope * rotation / 8.0;
+    let a = element.solidity() * slope * rotation / 8.0;
     let pitch_flow = pitch * rotation;
-    let with = |factor: f64| through_flow(a / factor, annulus.through, pitch_flow);
+    let with = |factor: f64| through_flow(a / factor, climb, pitch_flow);
     let without_loss = with(1.0);
-    if annulus.tip_loss != TipLoss::Prandtl {
+    if element.tip_loss != TipLoss::Prandtl {
         return Ok(without_loss);
     }
     // F falls from 1 to 0 as the flow goes from `without_loss` to its limit, theta Omega r.
     let residual = |through: f64| {
-        let factor = factor(annulus, through);
+        let factor = factor(element, rotation, through);
         if factor > 0.0 {
             through - with(factor)
         } else {
@@ -153,14 +163,8 @@ fn loaded_flow(annulus: &Annulus, slope: f64, pitch: f64) -> Result<f64, RootErr
     )
 }
 
-fn factor(annulus: &Annulus, through: f64) -> f64 {
-    let radius_ratio = annulus.radius / annulus.tip_radius;
-    let sin_inflow = through / annulus.in_plane; // small angle, as in thesis eq. (95)
-    Scalar::abs(
-        annulus
-            .tip_loss
-            .factor(annulus.blades, radius_ratio, sin_inflow),
-    )
+fn factor(element: &Element, rotation: f64, through: f64) -> f64 {
+    element.tip_loss_factor(through / rotation) // small angle, as in thesis eq. (95)
 }
 
 #[cfg(test)]

@@ -1,0 +1,129 @@
+//! Linear distributions of the induced velocity over the disc: v = v0 (1 + x (kx cos psi + ky sin
+//! psi)), x = r/R, psi from downwind. The coefficients are those collected in Leishman 2006,
+//! "Principles of Helicopter Aerodynamics", table 3.1; the thesis' table 5.
+
+use core::f64::consts::{PI, SQRT_2};
+
+/// How the induced velocity varies over the disc with the skew of the wake.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Skew {
+    /// Not at all: Glauert 1926, ARC R&M 1111.
+    Uniform,
+    /// Coleman, Feingold & Stempin 1945, NACA WR L-126: kx = tan(chi/2).
+    Coleman,
+    /// Drees 1949, J. Helicopter Assoc. Gt. Britain 3(2): kx = 4/3 (1 - cos chi - 1.8 mu^2)/sin chi,
+    /// ky = -2 mu.
+    Drees,
+    /// Payne 1959, "Helicopter Dynamics and Aerodynamics": kx = 4/3 (mu/lambda)/(1.2 + mu/lambda).
+    Payne,
+    /// White & Blake 1979, 35th AHS Forum: kx = sqrt(2) sin chi.
+    WhiteBlake,
+    /// Pitt & Peters 1981, Vertica 5, p. 21: kx = 15 pi/32 tan(chi/2).
+    PittPeters,
+    /// Howlett 1981, NASA CR-166309: kx = sin^2 chi.
+    Howlett,
+}
+
+/// The distribution's coefficients.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Coefficients {
+    pub kx: f64,
+    pub ky: f64,
+}
+
+impl Skew {
+    /// Coefficients at the advance ratio `mu` >= 0 and inflow ratio `lambda` (any sign).
+    ///
+    /// The wake's skew is chi = atan(mu/|lambda|): a wake that leaves upwards is skewed like one
+    /// that leaves downwards. Written with h = sqrt(mu^2 + lambda^2), sin chi = mu/h and
+    /// tan(chi/2) = mu/(h + |lambda|), nothing divides by zero but at a standstill, where all are 0.
+    pub fn coefficients(self, mu: f64, lambda: f64) -> Coefficients {
+        let flow = libm::hypot(mu, lambda);
+        if flow == 0.0 {
+            return Coefficients::default();
+        }
+        let sin = mu / flow;
+        let half_tangent = mu / (flow + lambda.abs());
+        let kx = match self {
+            Self::Uniform => 0.0,
+            Self::Coleman => half_tangent,
+            // (1 - cos chi)/sin chi = tan(chi/2), mu^2/sin chi = mu h.
+            Self::Drees => 4.0 / 3.0 * (half_tangent - 1.8 * mu * flow),
+            Self::Payne => 4.0 / 3.0 * mu / (1.2 * lambda.abs() + mu),
+            Self::WhiteBlake => SQRT_2 * sin,
+            Self::PittPeters => 15.0 * PI / 32.0 * half_tangent,
+            Self::Howlett => sin * sin,
+        };
+        let ky = if self == Self::Drees { -2.0 * mu } else { 0.0 };
+        Coefficients { kx, ky }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::disallowed_methods)] // the expectations are independent of libm
+mod tests {
+    use super::*;
+
+    /// Leishman's table 3.1, evaluated by hand at chi = 30, 60 and 80 deg with lambda = 0.05.
+    #[test]
+    fn coefficients_match_the_published_table_at_three_skew_angles() {
+        for degrees in [30.0_f64, 60.0, 80.0] {
+            let chi = degrees.to_radians();
+            let lambda = 0.05;
+            let mu = lambda * chi.tan();
+            let ratio = mu / lambda;
+            let expected = |skew: Skew| match skew {
+                Skew::Uniform => (0.0, 0.0),
+                Skew::Coleman => ((chi / 2.0).tan(), 0.0),
+                Skew::Drees => (
+                    4.0 / 3.0 * (1.0 - chi.cos() - 1.8 * mu * mu) / chi.sin(),
+                    -2.0 * mu,
+                ),
+                Skew::Payne => (4.0 / 3.0 * ratio / (1.2 + ratio), 0.0),
+                Skew::WhiteBlake => (SQRT_2 * chi.sin(), 0.0),
+                Skew::PittPeters => (15.0 * PI / 32.0 * (chi / 2.0).tan(), 0.0),
+                Skew::Howlett => (chi.sin().powi(2), 0.0),
+            };
+            for skew in [
+                Skew::Uniform,
+                Skew::Coleman,
+                Skew::Drees,
+                Skew::Payne,
+                Skew::WhiteBlake,
+                Skew::PittPeters,
+                Skew::Howlett,
+            ] {
+                let (kx, ky) = expected(skew);
+                for lambda in [lambda, -lambda] {
+                    let found = skew.coefficients(mu, lambda);
+                    assert!(
+                        (found.kx - kx).abs() < 1e-13,
+                        "{skew:?} at {degrees}: {found:?}"
+                    );
+                    assert!(
+                        (found.ky - ky).abs() < 1e-13,
+                        "{skew:?} at {degrees}: {found:?}"
+                    );
+                }
+            }
+        }
+        // Two numbers by hand: tan(30 deg) and sqrt(2) sin(60 deg).
+        let mu = 0.05 * 3.0_f64.sqrt();
+        assert!((Skew::Coleman.coefficients(mu, 0.05).kx - 0.577_350_269).abs() < 1e-9);
+        assert!((Skew::WhiteBlake.coefficients(mu, 0.05).kx - 1.224_744_871).abs() < 1e-9);
+    }
+
+    #[test]
+    fn axial_flow_has_no_skew() {
+        for skew in [
+            Skew::Coleman,
+            Skew::Drees,
+            Skew::Payne,
+            Skew::PittPeters,
+            Skew::Howlett,
+        ] {
+            assert_eq!(skew.coefficients(0.0, 0.05).kx, 0.0);
+            assert_eq!(skew.coefficients(0.0, 0.0).kx, 0.0);
+        }
+    }
+}
