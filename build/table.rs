@@ -70,6 +70,7 @@ pub struct Variable {
     pub min: Option<f64>,
     pub max: Option<f64>,
     pub depends_on: Option<Vec<String>>,
+    pub parameter_groups: Option<Vec<String>>,
     pub description: String,
 }
 
@@ -155,6 +156,14 @@ impl Table {
         items.iter().position(|i| i.name == name).map(|i| i + 1)
     }
 
+    /// The parameters, or those of one group (the part of the name before the dot).
+    pub fn parameters<'a>(&'a self, group: Option<&'a str>) -> impl Iterator<Item = &'a Variable> {
+        self.variables.iter().filter(move |v| {
+            let own = v.name.split('.').next();
+            v.causality == "parameter" && (group.is_none() || own == group)
+        })
+    }
+
     fn check(&self, v: &Variable) -> Result<(), String> {
         if self.variables.iter().filter(|o| o.name == v.name).count() > 1 {
             return Err("is written twice".into());
@@ -186,9 +195,36 @@ impl Table {
             }
         }
         for name in v.depends_on.iter().flatten() {
-            if self.index(name).is_none() {
-                return Err(format!("depends on {name}, which is no variable"));
+            let inputs = || self.variables.iter().filter(|i| i.causality == "input");
+            if v.causality != "output" || !inputs().any(|i| &i.name == name) {
+                return Err(format!(
+                    "depends on {name}, which only an output may, and on inputs"
+                ));
             }
+        }
+        for group in v.parameter_groups.iter().flatten() {
+            if v.causality != "output" || self.parameters(Some(group)).next().is_none() {
+                return Err(format!(
+                    "depends on parameters of the group {group}, which has none"
+                ));
+            }
+        }
+        if !["continuous", "discrete", "fixed", "tunable"].contains(&v.variability()) {
+            return Err(format!("variability {:?} is not known", v.variability()));
+        }
+        let known = ["Real", "Integer", "String"].contains(&v.kind.as_str());
+        if !known && self.enumeration(&v.kind).is_none() {
+            return Err(format!(
+                "type {:?} is neither a base type nor an enumeration",
+                v.kind
+            ));
+        }
+        let start = v.start.as_ref();
+        let number = start.and_then(|s| s.as_float().or(s.as_integer().map(|i| i as f64)));
+        if let Some(x) = number
+            && (v.min.is_some_and(|min| x < min) || v.max.is_some_and(|max| x > max))
+        {
+            return Err(format!("start {x} is out of its own range"));
         }
         Ok(())
     }

@@ -227,51 +227,60 @@ fn start_text(table: &Table, v: &Variable) -> Option<String> {
     })
 }
 
-/// Outputs with their true dependencies. Before initialisation ends, an output depends on the
-/// parameters as well, which InitialUnknowns may leave to "all that is known" (no attribute).
+/// Outputs with the inputs on which they depend, and initial unknowns with the parameters as well.
 fn model_structure(xml: &mut Xml, table: &Table) -> io::Result<()> {
     let outputs = || table.variables.iter().filter(|v| v.causality == "output");
     xml.create_element("ModelStructure")
         .write_inner_content(|xml| {
             xml.create_element("Outputs").write_inner_content(|xml| {
-                for v in outputs() {
-                    let indices: Vec<usize> = match &v.depends_on {
-                        Some(names) => names.iter().filter_map(|n| table.index(n)).collect(),
-                        None => table
-                            .variables
-                            .iter()
-                            .filter(|i| i.causality == "input")
-                            .filter_map(|i| table.index(&i.name))
-                            .collect(),
-                    };
-                    unknown(xml, table, v, Some(&indices))?;
-                }
-                Ok(())
+                outputs().try_for_each(|v| unknown(xml, table, v, inputs(table, v)))
             })?;
             xml.create_element("InitialUnknowns")
                 .write_inner_content(|xml| {
-                    outputs().try_for_each(|v| unknown(xml, table, v, None))
+                    outputs().try_for_each(|v| {
+                        let mut known = inputs(table, v);
+                        known.extend(parameters(table, v));
+                        unknown(xml, table, v, known)
+                    })
                 })?;
             Ok(())
         })?;
     Ok(())
 }
 
-fn unknown(
-    xml: &mut Xml,
-    table: &Table,
-    v: &Variable,
-    dependencies: Option<&[usize]>,
-) -> io::Result<()> {
-    let index = table.index(&v.name).unwrap_or_default().to_string();
-    let mut element = xml
-        .create_element("Unknown")
-        .with_attribute(("index", index.as_str()));
-    if let Some(dependencies) = dependencies {
-        let text: Vec<String> = dependencies.iter().map(usize::to_string).collect();
-        element = element.with_attribute(("dependencies", text.join(" ").as_str()));
+/// Indices of the inputs on which an output depends.
+fn inputs(table: &Table, v: &Variable) -> Vec<usize> {
+    let all = || table.variables.iter().filter(|i| i.causality == "input");
+    let named = |i: &&Variable| {
+        v.depends_on
+            .as_ref()
+            .is_none_or(|names| names.contains(&i.name))
+    };
+    all()
+        .filter(named)
+        .filter_map(|i| table.index(&i.name))
+        .collect()
+}
+
+/// Indices of the parameters on which an output depends.
+fn parameters(table: &Table, v: &Variable) -> Vec<usize> {
+    let indices = |group| table.parameters(group).filter_map(|p| table.index(&p.name));
+    match &v.parameter_groups {
+        None => indices(None).collect(),
+        Some(groups) => groups
+            .iter()
+            .flat_map(|group| indices(Some(group)))
+            .collect(),
     }
-    element.write_empty()?;
+}
+
+fn unknown(xml: &mut Xml, table: &Table, v: &Variable, known: Vec<usize>) -> io::Result<()> {
+    let index = table.index(&v.name).unwrap_or_default().to_string();
+    let known: Vec<String> = known.iter().map(usize::to_string).collect();
+    xml.create_element("Unknown")
+        .with_attribute(("index", index.as_str()))
+        .with_attribute(("dependencies", known.join(" ").as_str()))
+        .write_empty()?;
     Ok(())
 }
 

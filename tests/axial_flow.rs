@@ -352,7 +352,7 @@ fn every_model_is_finite_in_every_direction_of_flow_and_pitch() {
             .unwrap();
         for rpm in [0.0, 1.0, 960.0, 1440.0, 20_000.0] {
             for climb in [-60.0, -9.0, -4.0, -1.0, 0.0, 1e-9, 2.0, 12.0, 30.0] {
-                for degrees in (-180..=180).step_by(4) {
+                for degrees in (-168..=168).step_by(16) {
                     let reals = [f64::from(degrees).to_radians(), rpm, climb];
                     let places = [real::COLLECTIVE, real::RPM, real::VELOCITY_3];
                     block.set_reals(&places.map(|p| p as u32), &reals).unwrap();

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 /// The path in a `file:` URI (`file:/x`, `file:///x`, `file://localhost/x`, percent-encoded
-/// UTF-8, `file:///C:/x`); none if it is no such URI.
+/// UTF-8, `file:///C:/x`); none if it is no such URI or has no absolute path.
 pub fn path_from_uri(uri: &str) -> Option<PathBuf> {
     let scheme = uri.get(..5)?;
     if !scheme.eq_ignore_ascii_case("file:") {
@@ -13,7 +13,8 @@ pub fn path_from_uri(uri: &str) -> Option<PathBuf> {
     let path = match rest.strip_prefix("//") {
         // Behind two slashes comes the host, up to the path's own slash.
         Some(authority) => &authority[authority.find('/')?..],
-        None => rest,
+        None if rest.starts_with('/') => rest,
+        None => return None,
     };
     let path = percent_decoded(path)?;
     let drive = path.as_bytes();
@@ -74,6 +75,7 @@ mod tests {
         for uri in [
             "",
             "/a/b",
+            "file:x",
             "http://x/y",
             "file://host-without-path",
             "file:///%FF",

@@ -2,7 +2,6 @@
 
 use super::shown::shown;
 use super::variables::{Causality, INTEGERS, REALS, STRINGS, Variable};
-use std::fmt::Display;
 use thiserror::Error;
 
 /// Why a value was not read or set; nothing has changed then.
@@ -107,16 +106,13 @@ fn may_set<T>(
     variable: &Variable<T>,
     stage: Stage,
     differs: bool,
-    kept: &impl Display,
+    kept: impl FnOnce() -> String,
 ) -> Result<(), ValueError> {
     let name = variable.name;
     match variable.causality {
         Causality::Output => Err(ValueError::Output { name }),
         Causality::Parameter if stage == Stage::Running && !variable.tunable && differs => {
-            Err(ValueError::Fixed {
-                name,
-                kept: kept.to_string(),
-            })
+            Err(ValueError::Fixed { name, kept: kept() })
         }
         _ => Ok(()),
     }
@@ -152,7 +148,7 @@ impl Values {
         for (reference, value) in references.iter().zip(values) {
             let (place, variable) = find(&REALS, "Real", *reference)?;
             let kept = self.reals[place];
-            may_set(variable, stage, *value != kept, &shown(kept))?;
+            may_set(variable, stage, *value != kept, || shown(kept))?;
             let name = variable.name;
             if !value.is_finite() {
                 return Err(ValueError::NotFinite {
@@ -192,7 +188,7 @@ impl Values {
         for (reference, value) in references.iter().zip(values) {
             let (place, variable) = find(&INTEGERS, "Integer or Enumeration", *reference)?;
             let kept = self.integers[place];
-            may_set(variable, stage, *value != kept, &kept)?;
+            may_set(variable, stage, *value != kept, || kept.to_string())?;
             let name = variable.name;
             if (variable.min..=variable.max).contains(value) {
                 continue;
@@ -231,7 +227,7 @@ impl Values {
         for (reference, value) in references.iter().zip(values) {
             let (place, variable) = find(&STRINGS, "String", *reference)?;
             let kept = &self.strings[place];
-            may_set(variable, stage, value != kept, &format!("{kept:?}"))?;
+            may_set(variable, stage, value != kept, || format!("{kept:?}"))?;
         }
         for (reference, value) in references.iter().zip(values) {
             (*value).clone_into(&mut self.strings[*reference as usize]);

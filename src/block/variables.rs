@@ -30,4 +30,11 @@ pub struct Variable<T: 'static> {
     pub choices: &'static [&'static str],
 }
 
+/// Whether a value reference is that of a Real output.
+pub fn is_output(reference: u32) -> bool {
+    REALS
+        .get(reference as usize)
+        .is_some_and(|v| v.causality == Causality::Output)
+}
+
 include!(concat!(env!("OUT_DIR"), "/variables.rs"));

@@ -121,9 +121,11 @@ unsafe fn status<T>(
         let answer = answer(instance).ok_or_else(|| {
             Message::Error("there is no such status of this type; see fmi2StatusKind".into())
         })?;
-        // SAFETY: passed on from the caller.
-        let slot = unsafe { value.as_mut() };
-        *slot.ok_or_else(|| Message::Error("value is a null pointer".into()))? = answer;
+        if value.is_null() {
+            return refuse("value is a null pointer; pass a place for the answer".into());
+        }
+        // SAFETY: passed on from the caller; what stood there before is not looked at.
+        unsafe { value.write(answer) };
         Ok(())
     };
     // SAFETY: passed on from the caller.

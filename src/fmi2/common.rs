@@ -10,7 +10,7 @@ use super::{
 };
 use crate::block::{
     RotorBlock, Values, path_from_uri,
-    variables::{GUID, LOG_CATEGORIES, MODEL_IDENTIFIER},
+    variables::{GUID, LOG_CATEGORIES, MODEL_IDENTIFIER, is_output},
 };
 use core::ffi::{CStr, c_char};
 use std::{
@@ -200,7 +200,9 @@ const AIRFOILS: &str = "airfoils";
 /// one beside `binaries/<platform>/`, where this library lies.
 fn resources(location: Option<&str>) -> PathBuf {
     let given = location.map(|text| path_from_uri(text).unwrap_or_else(|| PathBuf::from(text)));
-    if let Some(folder) = given.filter(|path| path.join(AIRFOILS).is_dir()) {
+    let ours = given.filter(|path| path.join(AIRFOILS).is_dir());
+    // Made absolute, so that it stays the same folder when the importer changes its own.
+    if let Some(folder) = ours.and_then(|path| path.canonicalize().ok()) {
         return folder;
     }
     let beside = library_file().and_then(|file| {
@@ -356,7 +358,9 @@ pub unsafe extern "C" fn fmi2GetReal(
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
         let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
-        instance.refresh_while_initializing()?;
+        if vr.iter().any(|reference| is_output(*reference)) {
+            instance.refresh_while_initializing()?;
+        }
         Ok(instance.block.values().read_reals(vr, value)?)
     };
     // SAFETY: passed on from the caller.

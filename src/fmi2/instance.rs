@@ -82,28 +82,38 @@ pub unsafe fn call(
     }))
     .unwrap_or_else(|panic| Err(Message::Error(internal_error(&*panic))));
 
-    catch_unwind(AssertUnwindSafe(|| {
-        // SAFETY: as above.
-        let notes = unsafe { (*instance).block.take_notes() };
-        let logger = unsafe { &(*instance).logger };
-        for note in notes {
-            logger.log(fmi2Status::fmi2OK, Category::Events, &note);
-        }
-        match outcome {
-            Ok(()) => fmi2Status::fmi2OK,
-            Err(Message::Warning(text)) => {
-                let text = prefixed(function, &text);
-                logger.log(fmi2Status::fmi2Warning, Category::Warning, &text);
-                fmi2Status::fmi2Warning
+    let (status, mut lines) = match outcome {
+        Ok(()) => (fmi2Status::fmi2OK, Vec::new()),
+        Err(Message::Warning(text)) => (
+            fmi2Status::fmi2Warning,
+            vec![(Category::Warning, prefixed(function, &text))],
+        ),
+        Err(Message::Error(text)) => (
+            fmi2Status::fmi2Error,
+            vec![(Category::Error, prefixed(function, &text))],
+        ),
+    };
+    // SAFETY: as above; the logger has not been called yet.
+    let notes = unsafe { (*instance).block.take_notes() };
+    lines.splice(0..0, notes.into_iter().map(|note| (Category::Events, note)));
+    if !lines.is_empty() {
+        // SAFETY: as above. The copy of the logger is used, not the instance: what the importer's
+        // function does with the instance, freeing it included, harms nothing here.
+        let logger = unsafe { (*instance).logger.clone() };
+        let log = || {
+            for (category, text) in &lines {
+                let status = if *category == Category::Events {
+                    fmi2Status::fmi2OK
+                } else {
+                    status
+                };
+                logger.log(status, *category, text);
             }
-            Err(Message::Error(text)) => {
-                let text = prefixed(function, &text);
-                logger.log(fmi2Status::fmi2Error, Category::Error, &text);
-                fmi2Status::fmi2Error
-            }
-        }
-    }))
-    .unwrap_or(fmi2Status::fmi2Error)
+        };
+        // A panic in here has nobody left to be told of.
+        let _ = catch_unwind(AssertUnwindSafe(log));
+    }
+    status
 }
 
 fn prefixed(function: Function, text: &str) -> String {

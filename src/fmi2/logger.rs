@@ -16,6 +16,7 @@ pub enum Category {
 ///
 /// Errors and warnings are always logged, unless fmi2SetDebugLogging chose other categories;
 /// events only while logging is on.
+#[derive(Clone)]
 pub struct Logger {
     pub callback: Option<fmi2CallbackLogger>,
     pub environment: fmi2ComponentEnvironment,

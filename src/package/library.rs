@@ -8,11 +8,11 @@ use std::{
 };
 
 /// The platform's folder in an FMU (FMI 2.0.5, section 2.3).
-#[cfg(all(target_os = "linux", target_pointer_width = "64"))]
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
 const PLATFORM: &str = "linux64";
-#[cfg(all(target_os = "macos", target_pointer_width = "64"))]
+#[cfg(all(target_os = "macos", target_arch = "x86_64"))]
 const PLATFORM: &str = "darwin64";
-#[cfg(all(target_os = "windows", target_pointer_width = "64"))]
+#[cfg(all(target_os = "windows", target_arch = "x86_64"))]
 const PLATFORM: &str = "win64";
 
 /// The binary's name in the FMU, and its content.

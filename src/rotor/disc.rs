@@ -18,7 +18,7 @@ use nalgebra::Vector3;
 const AZIMUTHS: usize = 36;
 
 /// The motion of the disc through the air, without what it induces. SI units, rad.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DiscFlow {
     /// Rotor speed against the air, rad/s.
     pub rotation: f64,

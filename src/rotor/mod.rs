@@ -1,5 +1,8 @@
 //! The physics of a helicopter rotor: plain structures and functions in SI units and radians.
 //! Nothing here knows of FMI.
+//!
+//! "The thesis" is Lovaco Hernandez, J. L. (2017), "Verification of a Modelica Helicopter Rotor Model Using
+//! Blade Element Theory", Linkoping University, LIU-IEI-TEK-A--17/02958-SE.
 
 pub mod air;
 pub mod airfoil;

@@ -76,3 +76,122 @@ impl Scalar for f64 {
         libm::sqrt(self)
     }
 }
+
+/// A dual number for the tests: a value and its derivative by one variable.
+#[cfg(test)]
+pub mod dual {
+    use super::Scalar;
+    use std::ops::{Add, Div, Mul, Neg, Sub};
+
+    #[derive(Debug, Clone, Copy)]
+    pub struct Dual {
+        pub value: f64,
+        pub slope: f64,
+    }
+
+    impl Dual {
+        /// The variable itself.
+        pub fn variable(value: f64) -> Self {
+            Self { value, slope: 1.0 }
+        }
+
+        fn chain(self, value: f64, slope: f64) -> Self {
+            Self {
+                value,
+                slope: slope * self.slope,
+            }
+        }
+    }
+
+    impl Neg for Dual {
+        type Output = Self;
+        fn neg(self) -> Self {
+            self.chain(-self.value, -1.0)
+        }
+    }
+    impl Add for Dual {
+        type Output = Self;
+        fn add(self, o: Self) -> Self {
+            Self {
+                value: self.value + o.value,
+                slope: self.slope + o.slope,
+            }
+        }
+    }
+    impl Sub for Dual {
+        type Output = Self;
+        fn sub(self, o: Self) -> Self {
+            self + -o
+        }
+    }
+    impl Mul for Dual {
+        type Output = Self;
+        fn mul(self, o: Self) -> Self {
+            let slope = self.slope * o.value + self.value * o.slope;
+            Self {
+                value: self.value * o.value,
+                slope,
+            }
+        }
+    }
+    impl Div for Dual {
+        type Output = Self;
+        fn div(self, o: Self) -> Self {
+            self * o.chain(1.0 / o.value, -1.0 / (o.value * o.value))
+        }
+    }
+    impl Add<f64> for Dual {
+        type Output = Self;
+        fn add(self, o: f64) -> Self {
+            self.chain(self.value + o, 1.0)
+        }
+    }
+    impl Sub<f64> for Dual {
+        type Output = Self;
+        fn sub(self, o: f64) -> Self {
+            self.chain(self.value - o, 1.0)
+        }
+    }
+    impl Mul<f64> for Dual {
+        type Output = Self;
+        fn mul(self, o: f64) -> Self {
+            self.chain(self.value * o, o)
+        }
+    }
+    impl Div<f64> for Dual {
+        type Output = Self;
+        fn div(self, o: f64) -> Self {
+            self.chain(self.value / o, 1.0 / o)
+        }
+    }
+
+    impl Scalar for Dual {
+        fn constant(value: f64) -> Self {
+            Self { value, slope: 0.0 }
+        }
+        fn value(self) -> f64 {
+            self.value
+        }
+        fn sin(self) -> Self {
+            self.chain(libm::sin(self.value), libm::cos(self.value))
+        }
+        fn cos(self) -> Self {
+            self.chain(libm::cos(self.value), -libm::sin(self.value))
+        }
+        fn acos(self) -> Self {
+            let slope = -1.0 / libm::sqrt(1.0 - self.value * self.value);
+            self.chain(libm::acos(self.value), slope)
+        }
+        fn exp(self) -> Self {
+            let value = libm::exp(self.value);
+            self.chain(value, value)
+        }
+        fn ln(self) -> Self {
+            self.chain(libm::log(self.value), 1.0 / self.value)
+        }
+        fn sqrt(self) -> Self {
+            let value = libm::sqrt(self.value);
+            self.chain(value, 0.5 / value)
+        }
+    }
+}

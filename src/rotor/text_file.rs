@@ -15,7 +15,12 @@ pub fn read(path: &Path) -> Result<String, String> {
     if about.len() > LARGEST {
         return Err(format!("it has {} bytes, more than {LARGEST}", about.len()));
     }
-    fs::read_to_string(path).map_err(|e| e.to_string())
+    let text = fs::read_to_string(path).map_err(|e| e.to_string())?;
+    // Some editors begin a file with a mark of its encoding.
+    Ok(text
+        .strip_prefix('\u{feff}')
+        .map(str::to_owned)
+        .unwrap_or(text))
 }
 
 #[cfg(all(test, unix))]

@@ -3,7 +3,7 @@
 use crate::support::{
     Instance,
     c::{self, Status},
-    instance::bits,
+    instance::{bits, reference},
 };
 use helicopter_rotor::block::variables::{Causality, INTEGERS, REALS, STRINGS};
 
@@ -162,7 +162,8 @@ fn a_failed_initialisation_can_be_mended() {
                 "{message}"
             );
         }
-        let message = instance.refused(instance.get_reals(&[0], &mut [0.0]));
+        let thrust = reference(&REALS, "thrust");
+        let message = instance.refused(instance.get_reals(&[thrust], &mut [0.0]));
         assert!(message.contains(name), "{message}");
         assert_eq!(instance.set_string(name, default), c::OK);
         assert_eq!(
@@ -246,4 +247,18 @@ fn all_values(instance: &Instance) -> (Vec<u64>, Vec<i32>, Vec<String>) {
     let strings: Vec<String> = STRINGS.iter().map(|v| instance.string(v.name)).collect();
     assert_eq!(strings, STRINGS.map(|v| v.start));
     (bits(&reals), integers, strings)
+}
+
+#[test]
+fn what_was_set_can_be_read_in_initialization_mode_although_a_file_is_missing() {
+    let instance = Instance::new();
+    assert_eq!(instance.set_string("airfoil.file", "nowhere.polar"), c::OK);
+    instance.begin_initialization();
+    assert_eq!(instance.real("geometry.radius"), 0.762);
+    let mut thrust = [0.0];
+    let thrust_place = reference(&REALS, "thrust");
+    assert_eq!(instance.get_reals(&[thrust_place], &mut thrust), c::ERROR);
+    assert!(instance.take_log()[0].message.contains("nowhere.polar"));
+    assert_eq!(instance.set_string("airfoil.file", "naca0015.polar"), c::OK);
+    assert!(instance.real("thrust") > 0.0);
 }

@@ -261,3 +261,39 @@ fn a_null_environment_is_handed_back_as_null() {
     }
     assert_eq!(CALLS.load(Ordering::Relaxed), 1);
 }
+
+/// An importer may free the instance, or change its logging, when it hears of an error.
+#[test]
+fn the_logger_may_call_back_even_to_free_the_instance() {
+    static FREED: AtomicUsize = AtomicUsize::new(0);
+    /// Frees the instance that the environment points to, at the first call.
+    unsafe extern "C" fn free(environment: *mut c_void, _: Text, _: c::Status, _: Text, _: Text) {
+        let functions = &Fmu::shared().functions;
+        // SAFETY: the environment is the place of the component, set before the call that logs.
+        let component = unsafe { *environment.cast::<c::Component>() };
+        if FREED.fetch_add(1, Ordering::Relaxed) == 0 {
+            // SAFETY: the component is alive and not used afterwards.
+            unsafe {
+                (functions.fmi2SetDebugLogging)(component, 1, 0, ptr::null());
+                (functions.fmi2FreeInstance)(component);
+            }
+        }
+    }
+    let (log, guid) = (Mutex::default(), CString::new(GUID).unwrap());
+    let mut place: c::Component = ptr::null_mut();
+    let callbacks = c::Callbacks {
+        logger: Some(logger(free)),
+        environment: (&raw mut place).cast(),
+        ..callbacks(&log)
+    };
+    let f = &Fmu::shared().functions;
+    let name = c"rotor".as_ptr();
+    // SAFETY: the pointers are null or valid during the calls; the logger frees the instance.
+    unsafe {
+        let kind = c::CO_SIMULATION;
+        let guid = guid.as_ptr();
+        place = (f.fmi2Instantiate)(name, kind, guid, ptr::null(), &callbacks, 0, 1);
+        assert_eq!((f.fmi2DoStep)(place, 0.0, 0.1, 1), c::ERROR);
+    }
+    assert_eq!(FREED.load(Ordering::Relaxed), 1);
+}

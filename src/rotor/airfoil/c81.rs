@@ -8,7 +8,8 @@
 //! alpha  c(M1)  c(M2)  ...                    10F7.0, continued as 7X,9F7.0
 //! ```
 //!
-//! Angles run from -180 to 180 deg. The moment table is not used and need not be complete.
+//! Angles run from -180 to 180 deg; the values at the two ends need not agree, as they do not in many
+//! a published table. The moment table is not used and need not be complete.
 
 use super::{Airfoil, AirfoilError, Axis, Curve, Table};
 
@@ -92,12 +93,13 @@ impl<'a> Reader<'a> {
         })
     }
 
-    /// `count` values, nine a line from column 8 on.
+    /// `count` values, nine a line from column 8 on, none below `lowest`.
     fn values(
         &mut self,
         mut line: &'a str,
         count: usize,
         what: &str,
+        lowest: f64,
     ) -> Result<Vec<f64>, AirfoilError> {
         let mut values = Vec::with_capacity(count);
         for i in 0..count {
@@ -105,7 +107,13 @@ impl<'a> Reader<'a> {
             if i > 0 && place == 0 {
                 line = self.line(what)?;
             }
-            values.push(self.number(line, WIDTH * (place + 1), what)?);
+            let column = WIDTH * (place + 1);
+            let value = self.number(line, column, what)?;
+            if value < lowest {
+                let problem = format!("{value}: {what} must not be below {lowest}");
+                return Err(self.field_error(self.next, column + 1, problem));
+            }
+            values.push(value);
         }
         Ok(values)
     }
@@ -113,12 +121,12 @@ impl<'a> Reader<'a> {
     fn table(&mut self, name: &str, machs: usize, angles: usize) -> Result<Table, AirfoilError> {
         let what = format!("a Mach number of the {name} table");
         let line = self.line(&what)?;
-        let numbers = self.values(line, machs, &what)?;
-        if numbers[0] < 0.0 || numbers.windows(2).any(|pair| pair[1] <= pair[0]) {
+        let numbers = self.values(line, machs, &what, 0.0)?;
+        if numbers.windows(2).any(|pair| pair[1] <= pair[0]) {
             return Err(self.field_error(
                 self.next,
                 WIDTH + 1,
-                format!("the Mach numbers of the {name} table must increase from 0 or more"),
+                format!("the Mach numbers of the {name} table must increase"),
             ));
         }
         let mut columns = vec![Vec::with_capacity(angles); machs];
@@ -136,15 +144,13 @@ impl<'a> Reader<'a> {
                 ));
             }
             previous = alpha;
-            let first_line = self.next;
-            for (column, value) in columns.iter_mut().zip(self.values(line, machs, &what)?) {
-                if name == "drag" && value < 0.0 {
-                    return Err(self.field_error(
-                        first_line,
-                        WIDTH + 1,
-                        format!("drag coefficient {value} must not be negative"),
-                    ));
-                }
+            let lowest = if name == "drag" {
+                0.0
+            } else {
+                f64::NEG_INFINITY
+            };
+            let values = self.values(line, machs, &what, lowest)?;
+            for (column, value) in columns.iter_mut().zip(values) {
                 column.push((alpha, value));
             }
         }
@@ -250,7 +256,7 @@ Test section                   2 4 1 3 1 2
                 "   0.00   0.01",
                 "   0.00  -0.01",
                 "line 9, column 8",
-                "must not be negative",
+                "must not be below 0",
             ),
             (" 180.00   0.03\n", "", "line 9", "the file ends before"),
         ] {

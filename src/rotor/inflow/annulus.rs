@@ -32,10 +32,11 @@
 //! Bracket. At phi = phi0 the sign of R is that of -cl; at 90 deg from there, R has the sign of
 //! the direction in which one went. So there is always a root on the side to which the lift pushes.
 //! In descent that side holds up to two more roots: the rotor as a windmill, with the air still
-//! passing upwards. The windmill is taken where it exists, that is where R changes its sign
-//! before phi0/2, at which 4 F |sin phi| sin(phi - phi0) is largest for F = 1; else the air is
-//! pushed down through the disc as in hover (momentum theory as such, which is no longer a good
-//! theory there).
+//! passing upwards. The windmill is taken where it shows: where R has changed its sign at one of
+//! the angles 1/2, 3/8, 1/4 or 1/8 of phi0 (without lift, 4 F |sin phi| sin(phi - phi0) is largest
+//! at 1/2, and lift that falls with phi shifts the largest R towards 0). Else the root on the
+//! other side of phi = 0 is taken, which continues hover: the air is pushed down through the disc
+//! (momentum theory as such, which is no longer a good theory there).
 //!
 //! Flow along the disc, cyclic pitch and angular velocity of the hub. The induced velocity stays
 //! the same all around the annulus, perpendicular to the mean flow W; the lift is averaged over
@@ -181,11 +182,12 @@ fn root(
     let side = if start.residual < 0.0 { 1.0 } else { -1.0 };
     let mut from = start;
     if side * start.at < 0.0 {
-        let windmill = end(0.5 * start.at);
-        if windmill.residual * side >= 0.0 {
-            return search(start, windmill);
+        for part in [0.5, 0.375, 0.25, 0.125, 0.0] {
+            from = end(part * start.at);
+            if from.residual * side >= 0.0 {
+                return search(start, from);
+            }
         }
-        from = windmill;
     }
     let far = start.at + side * FRAC_PI_2;
     // A tighter bracket: without lift, at phi = theta of a symmetrical section, R has the sign of
@@ -203,4 +205,97 @@ fn root(
             residual: -from.residual,
         },
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rotor::{
+        airfoil::{Airfoil, Lift, SectionModel, Similarity},
+        compressibility::Compressibility,
+        element::Section,
+        scalar::dual::Dual,
+        tip_loss::TipLoss,
+    };
+    use std::path::Path;
+
+    const MODEL: SectionModel = SectionModel {
+        lift: Lift::Table,
+        compressibility: Compressibility::KarmanTsien,
+        drag_reynolds_exponent: 0.2,
+    };
+
+    fn airfoil() -> Airfoil {
+        let folder =
+            Path::new(env!("CARGO_MANIFEST_DIR")).join("modelDescription/resources/airfoils");
+        Airfoil::read(&folder.join("naca0015.polar")).unwrap()
+    }
+
+    fn element(airfoil: &Airfoil, chord: f64, pitch: f64) -> Element<'_> {
+        Element {
+            blades: 3.0,
+            radius: 0.8,
+            tip_radius: 1.0,
+            chord,
+            pitch,
+            lifting_share: 1.0,
+            tip_loss: TipLoss::Prandtl,
+            section: Section {
+                inner: airfoil,
+                outer: airfoil,
+                outer_share: 0.0,
+            },
+            model: &MODEL,
+            unit_flow: Similarity {
+                reynolds: 7e3,
+                mach: 1.0 / 340.0,
+            },
+            density: 1.2,
+        }
+    }
+
+    /// The same text gives the residual and, with dual numbers, its derivative.
+    #[test]
+    fn the_derivative_of_the_residual_is_that_of_its_differences() {
+        let airfoil = airfoil();
+        let element = element(&airfoil, 0.1, 0.15);
+        let undisturbed = Undisturbed {
+            speed: 90.0,
+            angle: 0.02,
+        };
+        for phi in [0.05, 0.081, 0.12] {
+            let at = |x: f64| axial_residual(&element, undisturbed, x);
+            let difference = (at(phi + 1e-6) - at(phi - 1e-6)) / 2e-6;
+            let slope = axial_residual(&element, undisturbed, Dual::variable(phi)).slope;
+            assert!(
+                (slope / difference - 1.0).abs() < 1e-7,
+                "{phi}: {slope} {difference}"
+            );
+        }
+    }
+
+    /// From hover to fast descent the rotor goes over to the windmill once and stays there.
+    #[test]
+    fn descent_changes_to_the_windmill_once() {
+        let airfoil = airfoil();
+        let cases = [0.1, 0.3].map(|chord| [0.0, 0.02, 0.05, 0.1].map(|pitch| (chord, pitch)));
+        for (chord, pitch) in cases.into_iter().flatten() {
+            let element = element(&airfoil, chord, pitch);
+            let mut changes = 0;
+            let mut was_windmill = false;
+            for i in 0..4000 {
+                let climb = -0.02 * f64::from(i);
+                let flow = DiscFlow {
+                    rotation: 100.0,
+                    climb,
+                    ..DiscFlow::default()
+                };
+                let answer = solve(&element, &flow, &[]).unwrap();
+                let is_windmill = climb + answer.induced.axial < -1e-6;
+                changes += u32::from(is_windmill != was_windmill);
+                was_windmill = is_windmill;
+            }
+            assert_eq!(changes, 1, "chord {chord}, pitch {pitch}");
+        }
+    }
 }
