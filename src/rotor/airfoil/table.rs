@@ -4,12 +4,20 @@ use super::Similarity;
 use crate::rotor::scalar::Scalar;
 use core::f64::consts::PI;
 
+/// Number of equal parts of the circle for which the first interval is kept, so that a look-up
+/// needs no search: half a degree each.
+const PARTS: usize = 720;
+
 /// A coefficient over angle of attack: linear between its points, exact at them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Curve {
     /// rad, strictly increasing from -pi to pi.
     alpha: Vec<f64>,
     value: Vec<f64>,
+    /// Slope of the interval that begins at each point but the last, 1/rad.
+    slope: Vec<f64>,
+    /// The interval in which each part of the circle begins.
+    interval: Vec<u16>,
     /// Angles of the first lift peak to either side of zero; rad.
     stall: (f64, f64),
 }
@@ -46,30 +54,46 @@ impl Curve {
             })
             .collect();
         let value: Vec<f64> = points.iter().map(|p| p.1).collect();
+        let intervals = alpha.windows(2).zip(value.windows(2));
+        let slope = intervals
+            .map(|(a, v)| (v[1] - v[0]) / (a[1] - a[0]))
+            .collect();
+        let last = alpha.len().saturating_sub(2);
+        let interval = (0..PARTS).map(|part| {
+            let begin = -PI + 2.0 * PI * part as f64 / PARTS as f64;
+            let next = alpha.partition_point(|a| *a <= begin);
+            u16::try_from(next.saturating_sub(1).min(last)).unwrap_or(u16::MAX)
+        });
         let stall = (
             -first_peak(points.iter().rev().map(|p| (-p.0, -p.1))).to_radians(),
             first_peak(points.iter().copied()).to_radians(),
         );
         Self {
+            interval: interval.collect(),
             alpha,
             value,
+            slope,
             stall,
         }
     }
 
+    /// At an angle between -pi and pi.
     fn value<S: Scalar>(&self, alpha: S) -> S {
-        let last = self.alpha.len() - 1;
-        let upper = self
-            .alpha
-            .partition_point(|a| *a <= alpha.value())
-            .clamp(1, last);
-        let (a0, a1) = (self.alpha[upper - 1], self.alpha[upper]);
-        let (v0, v1) = (self.value[upper - 1], self.value[upper]);
-        if alpha.value() == a0 {
-            // The point itself, with the slope of the interval above it.
-            return (alpha - a0) * ((v1 - v0) / (a1 - a0)) + v0;
+        let x = alpha.value();
+        let part = ((x + PI) * (PARTS as f64 / (2.0 * PI))) as usize;
+        let mut i = usize::from(self.interval[part.min(PARTS - 1)]);
+        // Rounding may name the part before or behind.
+        while i > 0 && x < self.alpha[i] {
+            i -= 1;
         }
-        (alpha - a1) * ((v1 - v0) / (a1 - a0)) + v1
+        while i + 1 < self.slope.len() && x >= self.alpha[i + 1] {
+            i += 1;
+        }
+        if x >= self.alpha[i + 1] {
+            // The last point itself.
+            return (alpha - self.alpha[i + 1]) * self.slope[i] + self.value[i + 1];
+        }
+        (alpha - self.alpha[i]) * self.slope[i] + self.value[i]
     }
 }
 
@@ -214,11 +238,41 @@ mod tests {
         assert_eq!(at(10.0, 1e5), 1.0);
         assert_eq!(at(-10.0, 1e5), -1.0);
         assert_eq!(at(10.0, 1e6), 2.0);
+        assert_eq!(at(14.0, 1e5), 0.9);
+        assert_eq!(at(-180.0, 1e5), 0.0);
         assert!((at(5.0, 1e5) - 0.5).abs() < 1e-15);
         assert!(
             (at(10.0, libm::sqrt(1e11)) - 1.5).abs() < 1e-14,
             "half way in ln Re"
         );
+    }
+
+    /// Against a search through all points.
+    #[test]
+    fn the_interval_is_found_at_every_angle() {
+        let points = [
+            (-180.0, 0.0),
+            (-90.3, 2.0),
+            (-90.2, 1.0),
+            (0.1, 3.0),
+            (0.2, -1.0),
+            (180.0, 0.0),
+        ];
+        let curve = Curve::from_degrees(&points);
+        for i in -36_000..=36_000 {
+            let degrees = f64::from(i) / 200.0;
+            let after = points
+                .iter()
+                .position(|p| p.0 > degrees)
+                .unwrap_or(points.len() - 1);
+            let (a, b) = (points[after - 1], points[after]);
+            let expected = a.1 + (degrees - a.0) / (b.0 - a.0) * (b.1 - a.1);
+            let found = curve.value(degrees.to_radians());
+            assert!(
+                (found - expected).abs() < 1e-11,
+                "{degrees}: {found} {expected}"
+            );
+        }
     }
 
     #[test]

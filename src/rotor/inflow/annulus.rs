@@ -148,13 +148,22 @@ pub fn solve(
         return Ok(Answer::default());
     }
     let inflow_angle = if flow.is_axisymmetric() {
-        root(undisturbed, element.pitch, |phi| {
+        // At phi0 nothing is induced, and R is the lift alone.
+        let lift = element.lift_coefficient(element.pitch - undisturbed.angle, undisturbed.speed);
+        let start = End {
+            at: undisturbed.angle,
+            residual: -element.solidity() * lift,
+        };
+        root(start, element.pitch, |phi| {
             axial_residual(element, undisturbed, phi)
         })?
     } else {
-        root(undisturbed, element.pitch, |phi| {
-            mean_residual(element, flow, azimuths, undisturbed, phi)
-        })?
+        let equation = |phi: f64| mean_residual(element, flow, azimuths, undisturbed, phi);
+        let start = End {
+            at: undisturbed.angle,
+            residual: equation(undisturbed.angle),
+        };
+        root(start, element.pitch, equation)?
     };
     let induced = induced(undisturbed, inflow_angle);
     let factor = element.tip_loss_factor(Scalar::sin(inflow_angle));
@@ -164,18 +173,14 @@ pub fn solve(
     })
 }
 
-fn root(
-    undisturbed: Undisturbed,
-    pitch: f64,
-    equation: impl Fn(f64) -> f64,
-) -> Result<f64, RootError> {
+/// The root that belongs to the residual at phi0.
+fn root(start: End, pitch: f64, equation: impl Fn(f64) -> f64) -> Result<f64, RootError> {
     let end = |at: f64| End {
         at,
         residual: equation(at),
     };
     let search = |from: End, to: End| bracketed(&equation, from, to, TOLERANCE);
 
-    let start = end(undisturbed.angle);
     if start.residual == 0.0 {
         return Ok(start.at); // no lift, nothing induced
     }
