@@ -7,15 +7,23 @@ pub fn variables(table: &Table) -> String {
     for (causality, title) in [
         ("input", "Inputs"),
         ("output", "Outputs"),
+        ("local", "Local variables"),
         ("parameter", "Parameters"),
     ] {
         html += &format!(
             "<h3>{title}</h3>\n<table>\n<tr><th>Name</th><th>Unit or type</th><th>Default</th><th>Range</th><th>Meaning</th></tr>\n"
         );
-        for v in table.variables.iter().filter(|v| v.causality == causality) {
+        // Of the elements of a row only the first is shown, with the range of all.
+        let rows = table
+            .variables
+            .iter()
+            .filter(|v| v.causality == causality && (v.count.is_none() || v.name.contains("[1]")));
+        for v in rows {
             html += &format!(
                 "<tr><td><code>{}</code></td><td>{}</td><td>{}</td><td>{}</td><td>{}{}</td></tr>\n",
-                v.name,
+                v.count.map_or(v.name.clone(), |n| v
+                    .name
+                    .replace("[1]", &format!("[1..{n}]"))),
                 unit_or_type(v),
                 default(table, v),
                 range(table, v),

@@ -56,7 +56,7 @@ pub struct Item {
     pub description: String,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, Clone)]
 #[serde(deny_unknown_fields, rename_all = "camelCase")]
 pub struct Variable {
     pub name: String,
@@ -71,6 +71,7 @@ pub struct Variable {
     pub max: Option<f64>,
     pub depends_on: Option<Vec<String>>,
     pub parameter_groups: Option<Vec<String>>,
+    pub count: Option<usize>,
     pub description: String,
 }
 
@@ -118,6 +119,11 @@ impl Table {
         let units: UnitFile =
             toml::from_str(&fs::read_to_string(units)?).map_err(|e| format!("{units}: {e}"))?;
         table.units = units.unit;
+        table.variables = table
+            .variables
+            .iter()
+            .flat_map(Variable::elements)
+            .collect();
         for variable in &table.variables {
             table
                 .check(variable)
@@ -168,11 +174,11 @@ impl Table {
         if self.variables.iter().filter(|o| o.name == v.name).count() > 1 {
             return Err("is written twice".into());
         }
-        if !["input", "output", "parameter"].contains(&v.causality.as_str()) {
+        if !["input", "output", "local", "parameter"].contains(&v.causality.as_str()) {
             return Err(format!("causality {:?} is not known", v.causality));
         }
-        if (v.causality == "output") == v.start.is_some() {
-            return Err("inputs and parameters have a start value, outputs have none".into());
+        if ["output", "local"].contains(&v.causality.as_str()) == v.start.is_some() {
+            return Err("inputs and parameters have a start value, others have none".into());
         }
         let start_fits = match (v.kind.as_str(), &v.start) {
             (_, None) => true,
@@ -231,6 +237,18 @@ impl Table {
 }
 
 impl Variable {
+    /// The variables behind a row: one, or `count` with 1, 2 ... in place of `#` in the name.
+    fn elements(&self) -> Vec<Self> {
+        let Some(count) = self.count else {
+            return vec![self.clone()];
+        };
+        let element = |i: usize| Self {
+            name: self.name.replace('#', &i.to_string()),
+            ..self.clone()
+        };
+        (1..=count).map(element).collect()
+    }
+
     pub fn base(&self) -> Base {
         match self.kind.as_str() {
             "Real" => Base::Real,

@@ -177,7 +177,7 @@ fn variable(xml: &mut Xml, table: &Table, v: &Variable) -> io::Result<()> {
         ("variability", v.variability()),
     ]);
     match v.causality.as_str() {
-        "output" => element = element.with_attribute(("initial", "calculated")),
+        "output" | "local" => element = element.with_attribute(("initial", "calculated")),
         "parameter" => element = element.with_attribute(("initial", "exact")),
         _ => {}
     }

@@ -423,3 +423,36 @@ fn stall_spreads_with_pitch() {
     assert!(some.1 > 0.0 && some.1 < 1.0 && some.0 < 1.0, "{some:?}");
     assert!(all.1 > some.1, "{some:?} {all:?}");
 }
+
+/// The stations are the same computation: their thrust adds up to the rotor's, and each one's
+/// lift and drag are those of its angle of attack.
+#[test]
+fn the_stations_along_the_blade_add_up_to_the_thrust() {
+    let block = computed(&[], &[]);
+    let at = |first: usize, i: usize| output(&block, first + i);
+    let (mut sum, length) = (0.0, 0.762 * (1.0 - 1.0 / 6.0) / 20.0);
+    for i in 0..20 {
+        let radius = at(real::STATION_1__RADIUS, i);
+        let expected = 1.0 / 6.0 + (i as f64 + 0.5) / 20.0 * 5.0 / 6.0;
+        assert!((radius - expected).abs() < 1e-12);
+        sum += 4.0 * at(real::STATION_1__THRUST_PER_LENGTH, i) * length;
+        let tip_part = output(&block, real::TIP_MACH) * radius;
+        assert!(
+            (at(real::STATION_1__MACH, i) / tip_part - 1.0).abs() < 0.03,
+            "{i}"
+        );
+        let reynolds = output(&block, real::TIP_REYNOLDS) * radius;
+        assert!(
+            (at(real::STATION_1__REYNOLDS, i) / reynolds - 1.0).abs() < 0.03,
+            "{i}"
+        );
+        assert!(at(real::STATION_1__DRAG_COEFFICIENT, i) > 0.01);
+        let slope =
+            at(real::STATION_1__LIFT_COEFFICIENT, i) / at(real::STATION_1__ANGLE_OF_ATTACK, i);
+        assert!((5.0..6.8).contains(&slope), "{i}: {slope}");
+    }
+    assert!(
+        (sum / output(&block, real::THRUST) - 1.0).abs() < 5e-3,
+        "{sum}"
+    );
+}

@@ -144,8 +144,9 @@ impl RotorBlock {
             .map_err(|error| BlockError::Unsolved(error, inputs(&self.values)))?;
         let mut reals = self.values.reals;
         write_outputs(&mut reals, rotor, &operation, &performance, &shaft);
+        write_stations(&mut reals, rotor);
         for (variable, value) in REALS.iter().zip(reals) {
-            if variable.causality == Causality::Output && !value.is_finite() {
+            if variable.causality.is_computed() && !value.is_finite() {
                 let inputs = inputs(&self.values);
                 return Err(BlockError::NotFinite {
                     name: variable.name,
@@ -208,6 +209,9 @@ fn air(values: &Values) -> Result<Air, SetupError> {
         },
     )
 }
+
+/// Number of stations along the blade: of each quantity so many variables stand in a row.
+const STATIONS: usize = real::STATION_20__RADIUS - real::STATION_1__RADIUS + 1;
 
 /// Tip speed, m/s, up to which a rotor counts as standing still, where coefficients mean nothing.
 const STANDSTILL: f64 = 1e-6;
@@ -280,6 +284,29 @@ fn write_outputs(
     reals[real::TIP_MACH] = tip_speed / air.speed_of_sound;
     reals[real::TIP_REYNOLDS] = air.density * tip_speed * geometry.tip_chord / air.viscosity;
     reals[real::AIR_DENSITY] = air.density;
+}
+
+/// Writes what goes on along the blade, at the middles of equal parts from cutout to tip.
+fn write_stations(reals: &mut [f64], rotor: &Rotor) {
+    let geometry = rotor.geometry();
+    let (cutout, blades) = (geometry.cutout(), f64::from(geometry.blades));
+    for i in 0..STATIONS {
+        let part = (i as f64 + 0.5) / STATIONS as f64;
+        let radius = cutout + part * (1.0 - cutout);
+        let load = rotor.load_at(radius);
+        for (first, value) in [
+            (real::STATION_1__RADIUS, radius),
+            (real::STATION_1__ANGLE_OF_ATTACK, load.angle_of_attack),
+            (real::STATION_1__LIFT_COEFFICIENT, load.lift_coefficient),
+            (real::STATION_1__DRAG_COEFFICIENT, load.drag_coefficient),
+            (real::STATION_1__INDUCED_VELOCITY, load.induced_velocity),
+            (real::STATION_1__REYNOLDS, load.reynolds),
+            (real::STATION_1__MACH, load.mach),
+            (real::STATION_1__THRUST_PER_LENGTH, load.thrust / blades),
+        ] {
+            reals[first + i] = value;
+        }
+    }
 }
 
 /// The inputs as a text for errors.

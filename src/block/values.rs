@@ -36,7 +36,7 @@ pub enum ValueError {
         choices: String,
         kept: i32,
     },
-    #[error("{name} is an output, which the rotor computes; it cannot be set")]
+    #[error("{name} is computed by the rotor; it cannot be set")]
     Output { name: &'static str },
     #[error(
         "{name} is a fixed parameter and keeps {kept} once the simulation runs; set it before initialisation ends, or reset the instance"
@@ -110,7 +110,7 @@ fn may_set<T>(
 ) -> Result<(), ValueError> {
     let name = variable.name;
     match variable.causality {
-        Causality::Output => Err(ValueError::Output { name }),
+        Causality::Output | Causality::Local => Err(ValueError::Output { name }),
         Causality::Parameter if stage == Stage::Running && !variable.tunable && differs => {
             Err(ValueError::Fixed { name, kept: kept() })
         }
@@ -246,7 +246,7 @@ mod tests {
         let defaults = Values::default();
         for (v, value) in REALS.iter().zip(defaults.reals) {
             assert!(
-                v.causality == Causality::Output || (v.min..=v.max).contains(&value),
+                v.causality.is_computed() || (v.min..=v.max).contains(&value),
                 "{}",
                 v.name
             );

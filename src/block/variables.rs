@@ -9,6 +9,8 @@
 pub enum Causality {
     Input,
     Output,
+    /// Computed like an output, but not connected to others.
+    Local,
     Parameter,
 }
 
@@ -30,11 +32,18 @@ pub struct Variable<T: 'static> {
     pub choices: &'static [&'static str],
 }
 
-/// Whether a value reference is that of a Real output.
-pub fn is_output(reference: u32) -> bool {
+impl Causality {
+    /// Whether the block computes the variable.
+    pub fn is_computed(self) -> bool {
+        matches!(self, Self::Output | Self::Local)
+    }
+}
+
+/// Whether a value reference is that of a Real variable that the block computes.
+pub fn is_computed(reference: u32) -> bool {
     REALS
         .get(reference as usize)
-        .is_some_and(|v| v.causality == Causality::Output)
+        .is_some_and(|v| v.causality.is_computed())
 }
 
 include!(concat!(env!("OUT_DIR"), "/variables.rs"));

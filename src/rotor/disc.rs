@@ -164,6 +164,8 @@ pub struct Turn<'a> {
     pub stalled: f64,
     angle_of_attack: f64,
     speed: f64,
+    lift_coefficient: f64,
+    drag_coefficient: f64,
     induced: f64,
 }
 
@@ -178,6 +180,8 @@ impl<'a> Turn<'a> {
             stalled: 0.0,
             angle_of_attack: 0.0,
             speed: 0.0,
+            lift_coefficient: 0.0,
+            drag_coefficient: 0.0,
             induced: 0.0,
         }
     }
@@ -214,6 +218,8 @@ impl<'a> Turn<'a> {
         self.moment += Vector3::new(-normal * sin, normal * cos, -tangential) * radius;
         self.angle_of_attack += share * load.angle_of_attack;
         self.speed += share * load.speed;
+        self.lift_coefficient += share * load.lift_coefficient;
+        self.drag_coefficient += share * load.drag_coefficient;
         self.induced += share * induced;
         if self.element.is_stalled(load) {
             self.stalled += share;
@@ -222,6 +228,7 @@ impl<'a> Turn<'a> {
 
     /// The means of the turn.
     pub fn load(&self, mean_induced: f64) -> Load {
+        let flow = self.element.similarity(self.speed);
         Load {
             thrust: self.force.z,
             torque: -self.moment.z,
@@ -229,6 +236,10 @@ impl<'a> Turn<'a> {
             induced_velocity: self.induced,
             mean_induced_velocity: mean_induced,
             speed: self.speed,
+            lift_coefficient: self.lift_coefficient,
+            drag_coefficient: self.drag_coefficient,
+            reynolds: flow.reynolds,
+            mach: flow.mach,
         }
     }
 }

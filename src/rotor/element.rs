@@ -59,6 +59,9 @@ pub struct SectionLoad {
     pub angle_of_attack: f64,
     /// m/s.
     pub speed: f64,
+    /// Of the element as a whole, with its tip loss.
+    pub lift_coefficient: f64,
+    pub drag_coefficient: f64,
 }
 
 impl Element<'_> {
@@ -125,6 +128,8 @@ impl Element<'_> {
             tangential: pressure * (lift * sin + drag * cos),
             angle_of_attack: alpha,
             speed,
+            lift_coefficient: lift,
+            drag_coefficient: drag,
         }
     }
 

@@ -84,6 +84,10 @@ pub struct Load {
     pub mean_induced_velocity: f64,
     /// Speed of the flow that meets the section, m/s.
     pub speed: f64,
+    pub lift_coefficient: f64,
+    pub drag_coefficient: f64,
+    pub reynolds: f64,
+    pub mach: f64,
 }
 
 /// A disc or a blade element for which no flow was found.
@@ -150,6 +154,30 @@ impl Rotor {
     /// Radii of the elements, m, and their loads in the last computation.
     pub fn element_loads(&self) -> (&[f64], &[Load]) {
         (&self.elements.radius, &self.loads)
+    }
+
+    /// The last computation at a radius r/R between cutout and tip: linear between the middles of the
+    /// elements, and that of the outermost ones beyond them.
+    pub fn load_at(&self, radius_ratio: f64) -> Load {
+        let last = self.loads.len() - 1;
+        let place =
+            (radius_ratio * self.geometry.radius - self.elements.radius[0]) / self.elements.width;
+        let inner = (place.max(0.0) as usize).min(last);
+        let (a, b) = (&self.loads[inner], &self.loads[(inner + 1).min(last)]);
+        let weight = (place - inner as f64).clamp(0.0, 1.0);
+        let mix = |quantity: fn(&Load) -> f64| quantity(a) + weight * (quantity(b) - quantity(a));
+        Load {
+            thrust: mix(|l| l.thrust),
+            torque: mix(|l| l.torque),
+            angle_of_attack: mix(|l| l.angle_of_attack),
+            induced_velocity: mix(|l| l.induced_velocity),
+            mean_induced_velocity: mix(|l| l.mean_induced_velocity),
+            speed: mix(|l| l.speed),
+            lift_coefficient: mix(|l| l.lift_coefficient),
+            drag_coefficient: mix(|l| l.drag_coefficient),
+            reynolds: mix(|l| l.reynolds),
+            mach: mix(|l| l.mach),
+        }
     }
 
     /// Computes the rotor in steady flight, averaged over a turn. Allocates nothing.

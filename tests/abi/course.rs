@@ -5,7 +5,7 @@ use crate::support::{
     c::{self, Status},
     instance::{bits, reference},
 };
-use helicopter_rotor::block::variables::{Causality, INTEGERS, REALS, STRINGS};
+use helicopter_rotor::block::variables::{INTEGERS, REALS, STRINGS};
 
 /// Something done with an instance.
 type Action = fn(&Instance) -> Status;
@@ -211,7 +211,7 @@ fn a_reset_restores_every_default_and_the_time_from_every_state() {
 
 /// Sets every input and parameter to another value.
 fn change_everything(instance: &Instance) {
-    for v in REALS.iter().filter(|v| v.causality != Causality::Output) {
+    for v in REALS.iter().filter(|v| !v.causality.is_computed()) {
         let other = if v.max.is_finite() {
             v.start + 1e-3 * (v.max - v.start)
         } else {
@@ -237,7 +237,7 @@ fn all_values(instance: &Instance) -> (Vec<u64>, Vec<i32>, Vec<String>) {
     let reals = instance.reals();
     for (v, value) in REALS.iter().zip(&reals) {
         assert!(
-            v.causality == Causality::Output || v.start == *value,
+            v.causality.is_computed() || v.start == *value,
             "{} = {value}",
             v.name
         );

@@ -68,7 +68,7 @@ fn integers(instance: &Instance) -> Vec<i32> {
 
 #[test]
 fn no_input_or_parameter_accepts_what_is_not_finite() {
-    for variable in REALS.iter().filter(|v| v.causality != Causality::Output) {
+    for variable in REALS.iter().filter(|v| !v.causality.is_computed()) {
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             let parts = [variable.name, "not a finite number"];
             refused_at_the_start(&parts, |i| i.set_real(variable.name, value));
@@ -171,10 +171,10 @@ fn of_several_values_all_or_none_are_set() {
 
 #[test]
 fn outputs_cannot_be_set() {
-    for variable in REALS.iter().filter(|v| v.causality == Causality::Output) {
+    for variable in REALS.iter().filter(|v| v.causality.is_computed()) {
         let set = |i: &Instance| i.set_real(variable.name, 1.0);
-        refused_without_a_trace(&[variable.name, "is an output"], set);
-        refused_at_the_start(&[variable.name, "is an output"], set);
+        refused_without_a_trace(&[variable.name, "is computed by the rotor"], set);
+        refused_at_the_start(&[variable.name, "is computed by the rotor"], set);
     }
 }
 
