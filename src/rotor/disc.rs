@@ -13,9 +13,10 @@ use super::{
 use core::f64::consts::PI;
 use nalgebra::Vector3;
 
-/// Number of azimuths over which a disc without axial symmetry is averaged: all moments of the
-/// loads up to the 35th harmonic are exact.
-const AZIMUTHS: usize = 36;
+/// Number of azimuths over which a disc without axial symmetry is averaged. All harmonics of the
+/// loads up to the 23rd are averaged exactly; against 144 azimuths, the thrust of the default rotor
+/// at an advance ratio of 0.26 differs by 1e-6.
+const AZIMUTHS: usize = 24;
 
 /// The motion of the disc through the air, without what it induces. SI units, rad.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -149,6 +150,36 @@ impl Azimuths {
     }
 }
 
+/// The loads of one blade's section at an azimuth, in an induced velocity.
+fn section_load(
+    element: &Element,
+    flow: &DiscFlow,
+    loss: LossIn,
+    azimuth: Azimuth,
+    induced: Induced,
+) -> SectionLoad {
+    let meets = flow.meets(element.radius, azimuth);
+    let pitch = element.pitch + meets.cyclic;
+    element.load(
+        pitch,
+        meets.in_plane - induced.swirl,
+        meets.through + induced.axial,
+        loss,
+    )
+}
+
+/// Thrust of all blades' sections per unit of radius, N/m, as a mean over the turn.
+pub fn mean_thrust(
+    element: &Element,
+    flow: &DiscFlow,
+    loss: LossIn,
+    azimuths: &[Azimuth],
+    induced: impl Fn(Azimuth) -> Induced,
+) -> f64 {
+    let normal = |a: &Azimuth| section_load(element, flow, loss, *a, induced(*a)).normal;
+    azimuths.iter().map(normal).sum::<f64>() / azimuths.len() as f64 * element.blades
+}
+
 /// One element on its way around the azimuth: the loads of all blades per unit of radius, as means
 /// over the turn, in the axes of the disc's flow.
 #[derive(Debug)]
@@ -190,14 +221,8 @@ impl<'a> Turn<'a> {
     pub fn fly(&mut self, loss: LossIn, induced: impl Fn(Azimuth) -> Induced) {
         let share = 1.0 / self.azimuths.len() as f64;
         for azimuth in self.azimuths {
-            let meets = self.flow.meets(self.element.radius, *azimuth);
             let induced = induced(*azimuth);
-            let load = self.element.load(
-                self.element.pitch + meets.cyclic,
-                meets.in_plane - induced.swirl,
-                meets.through + induced.axial,
-                loss,
-            );
+            let load = section_load(self.element, self.flow, loss, *azimuth, induced);
             self.add(&load, induced.axial, *azimuth, share);
         }
     }

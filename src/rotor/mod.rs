@@ -19,7 +19,7 @@ pub mod tip_loss;
 use air::Air;
 use airfoil::{Airfoil, SectionModel, Similarity};
 use core::f64::consts::PI;
-use disc::{Azimuths, DiscFlow, Turn, WindAxes};
+use disc::{Azimuths, DiscFlow, Turn, WindAxes, mean_thrust};
 use element::{Element, LossIn, Section};
 use geometry::{Elements, Geometry, Rotation};
 use inflow::{Field, Inflow, Skew, annulus, closed_form, uniform};
@@ -296,11 +296,10 @@ impl Rotor {
             let mut thrust = 0.0;
             for i in 0..self.elements.len() {
                 let element = self.element(i, operation);
-                let mut turn = Turn::new(&element, flow, self.azimuths.of(flow));
-                turn.fly(LossIn::Lift, |azimuth| {
-                    field.at(element.radius_ratio(), azimuth)
-                });
-                thrust += turn.force.z * self.elements.width;
+                let azimuths = self.azimuths.of(flow);
+                let induced = |azimuth| field.at(element.radius_ratio(), azimuth);
+                let per_length = mean_thrust(&element, flow, LossIn::Lift, azimuths, induced);
+                thrust += per_length * self.elements.width;
             }
             thrust / density_area
         };
