@@ -22,16 +22,6 @@ use helicopter_rotor::{
 use nalgebra::Vector3;
 use std::{f64::consts::PI, fs, path::PathBuf};
 
-const SKEWS: [Skew; 7] = [
-    Skew::Uniform,
-    Skew::Coleman,
-    Skew::Drees,
-    Skew::Payne,
-    Skew::WhiteBlake,
-    Skew::PittPeters,
-    Skew::Howlett,
-];
-
 const SPEED: f64 = 100.0;
 const DENSITY: f64 = 1.2;
 const CHORD: f64 = 0.05;
@@ -104,7 +94,7 @@ fn close(found: f64, expected: f64, part: f64, what: &str) {
 /// Glauert: the thrust is the momentum of the resultant flow through the disc.
 #[test]
 fn glauerts_equation_holds_between_thrust_and_mean_inflow() {
-    for skew in SKEWS {
+    for skew in Skew::ALL {
         let mut rotor = ideal(Inflow::Disc(skew));
         for mu in [0.0, 0.01, 0.1, 0.3, 0.5] {
             for climb in [-0.02, 0.0, 0.05] {
@@ -319,7 +309,7 @@ fn inflow_that_grows_towards_the_rear_pitches_the_rotor_nose_up() {
             .y
     };
     let uniform = pitch(Skew::Uniform);
-    for skew in SKEWS.into_iter().skip(1) {
+    for skew in Skew::ALL.into_iter().skip(1) {
         assert!(pitch(skew) < uniform, "{skew:?}");
     }
 }

@@ -3,9 +3,9 @@
 #![allow(non_snake_case)]
 
 use super::{
-    common::not_offered,
     instance::{Instance, Message, Outcome, call, refuse},
     legality::Function,
+    not_offered::not_offered,
     types::*,
 };
 

@@ -32,6 +32,16 @@ pub struct Coefficients {
 }
 
 impl Skew {
+    pub const ALL: [Self; 7] = [
+        Self::Uniform,
+        Self::Coleman,
+        Self::Drees,
+        Self::Payne,
+        Self::WhiteBlake,
+        Self::PittPeters,
+        Self::Howlett,
+    ];
+
     /// Coefficients at the advance ratio `mu` >= 0 and inflow ratio `lambda` (any sign).
     ///
     /// The wake's skew is chi = atan(mu/|lambda|): a wake that leaves upwards is skewed like one
@@ -84,15 +94,7 @@ mod tests {
                 Skew::PittPeters => (15.0 * PI / 32.0 * (chi / 2.0).tan(), 0.0),
                 Skew::Howlett => (chi.sin().powi(2), 0.0),
             };
-            for skew in [
-                Skew::Uniform,
-                Skew::Coleman,
-                Skew::Drees,
-                Skew::Payne,
-                Skew::WhiteBlake,
-                Skew::PittPeters,
-                Skew::Howlett,
-            ] {
+            for skew in Skew::ALL {
                 let (kx, ky) = expected(skew);
                 for lambda in [lambda, -lambda] {
                     let found = skew.coefficients(mu, lambda);
