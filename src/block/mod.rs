@@ -1,6 +1,7 @@
 //! The rotor as a block of named variables: which variable feeds which quantity of the physics.
 //! Neutral of the FMI version.
 
+mod integrate;
 mod location;
 mod setup;
 mod shown;
@@ -11,12 +12,13 @@ pub use location::path_from_uri;
 pub use setup::SetupError;
 pub use values::{Stage, ValueError, Values};
 
-use crate::rotor::{Operation, Performance, Rotor, SolveError, air::Air};
+use crate::rotor::{Operation, Performance, Rotor, SolveError, air::Air, inflow::Field};
 use core::f64::consts::{PI, SQRT_2};
+use integrate::Memory;
 use nalgebra::{Matrix3, Vector3};
 use std::path::PathBuf;
 use thiserror::Error;
-use variables::{AirModel, Causality, REALS, integer, real};
+use variables::{AirModel, Causality, Initialization, REALS, integer, real};
 
 /// Why the outputs could not be computed; they keep their last values.
 #[derive(Debug, Error, Clone, PartialEq)]
@@ -41,6 +43,8 @@ pub struct RotorBlock {
     resources: PathBuf,
     /// None until it is needed, and again when a parameter that shapes it has changed.
     rotor: Option<Rotor>,
+    /// The states of the rotor, as of the last step.
+    memory: Memory,
     /// Whether the outputs belong to the present inputs and parameters.
     current: bool,
     /// What was read from which file since the last call of `take_notes`.
@@ -55,6 +59,7 @@ impl RotorBlock {
             stage: Stage::Configuring,
             resources,
             rotor: None,
+            memory: Memory::default(),
             current: false,
             notes: Vec::new(),
         }
@@ -114,36 +119,85 @@ impl RotorBlock {
         std::mem::take(&mut self.notes)
     }
 
-    /// Makes the outputs those of the present inputs and parameters.
-    ///
-    /// The models have no memory, so that this is also a step in time.
+    /// Makes the outputs those of the present inputs, parameters and states. While the block is being
+    /// configured, the states are those of the start.
     pub fn update(&mut self) -> Result<(), BlockError> {
         if self.current {
             return Ok(());
         }
-        if self.rotor.is_none() {
-            let (rotor, notes) = setup::rotor(&self.values, &self.resources)?;
-            self.rotor = Some(rotor);
-            self.notes.extend(notes);
+        let flight = Flight::new(&self.values)?;
+        let memory = match self.stage {
+            Stage::Running => self.memory,
+            Stage::Configuring => {
+                let start = setup::choice(
+                    &self.values,
+                    integer::INITIALIZATION,
+                    Initialization::from_integer,
+                )?;
+                let rotor = self.rotor()?;
+                let is_steady = rotor.has_memory() && start == Initialization::Steady;
+                let inflow = if is_steady {
+                    rotor.equilibrium(&flight.operation)
+                } else {
+                    Ok(Field::default())
+                };
+                let inflow = inflow.map_err(|e| self.unsolved(e))?;
+                Memory::starting(inflow)
+            }
+        };
+        self.publish(&flight, memory)
+    }
+
+    /// Moves on by `duration` s (> 0) with the present inputs, which are constant during it. If that
+    /// fails, the states and outputs keep their values.
+    pub fn step(&mut self, duration: f64) -> Result<(), BlockError> {
+        if !self.rotor()?.has_memory() {
+            return self.update();
         }
-        let Some(rotor) = self.rotor.as_mut() else {
-            return Ok(()); // made above
+        let flight = Flight::new(&self.values)?;
+        let azimuth_step = self.values.reals[real::NUMERICS__AZIMUTH_STEP];
+        let memory = self.memory;
+        let advanced = integrate::advance(
+            self.rotor()?,
+            &flight.operation,
+            &memory,
+            duration,
+            azimuth_step,
+        );
+        let memory = advanced.map_err(|e| self.unsolved(e))?;
+        self.publish(&flight, memory)
+    }
+
+    /// The rotor of the present parameters.
+    fn rotor(&mut self) -> Result<&mut Rotor, BlockError> {
+        let rotor = match self.rotor.take() {
+            Some(rotor) => rotor,
+            None => {
+                let (rotor, notes) = setup::rotor(&self.values, &self.resources)?;
+                self.notes.extend(notes);
+                rotor
+            }
         };
-        let shaft = Shaft::new(&self.values.reals);
-        let operation = Operation {
-            collective: self.values.reals[real::COLLECTIVE],
-            cyclic_longitudinal: self.values.reals[real::CYCLIC_LONGITUDINAL],
-            cyclic_lateral: self.values.reals[real::CYCLIC_LATERAL],
-            speed: self.values.reals[real::RPM] * PI / 30.0,
-            airspeed: shaft.airspeed,
-            angular_velocity: shaft.angular_velocity,
-            air: air(&self.values)?,
-        };
-        let performance = rotor
-            .steady(&operation)
-            .map_err(|error| BlockError::Unsolved(error, inputs(&self.values)))?;
+        Ok(self.rotor.insert(rotor))
+    }
+
+    fn unsolved(&self, error: SolveError) -> BlockError {
+        BlockError::Unsolved(error, inputs(&self.values))
+    }
+
+    /// Computes the outputs in a flight and takes them and the states over, if all are finite.
+    fn publish(&mut self, flight: &Flight, memory: Memory) -> Result<(), BlockError> {
         let mut reals = self.values.reals;
-        write_outputs(&mut reals, rotor, &operation, &performance, &shaft);
+        let rotor = self.rotor()?;
+        let performance = if rotor.has_memory() {
+            rotor.with_inflow(&flight.operation, &memory.inflow)
+        } else {
+            rotor.steady(&flight.operation)
+        };
+        match performance {
+            Ok(performance) => write_outputs(&mut reals, rotor, &performance, flight),
+            Err(error) => return Err(self.unsolved(error)),
+        }
         write_stations(&mut reals, rotor);
         for (variable, value) in REALS.iter().zip(reals) {
             if variable.causality.is_computed() && !value.is_finite() {
@@ -156,8 +210,32 @@ impl RotorBlock {
             }
         }
         self.values.reals = reals;
+        self.memory = memory;
         self.current = true;
         Ok(())
+    }
+}
+
+/// What the inputs ask of the rotor, and where its hub is turned to.
+struct Flight {
+    shaft: Shaft,
+    operation: Operation,
+}
+
+impl Flight {
+    fn new(values: &Values) -> Result<Self, SetupError> {
+        let reals = &values.reals;
+        let shaft = Shaft::new(reals);
+        let operation = Operation {
+            collective: reals[real::COLLECTIVE],
+            cyclic_longitudinal: reals[real::CYCLIC_LONGITUDINAL],
+            cyclic_lateral: reals[real::CYCLIC_LATERAL],
+            speed: reals[real::RPM] * PI / 30.0,
+            airspeed: shaft.airspeed,
+            angular_velocity: shaft.angular_velocity,
+            air: air(values)?,
+        };
+        Ok(Self { shaft, operation })
     }
 }
 
@@ -217,13 +295,8 @@ const STATIONS: usize = real::STATION_20__RADIUS - real::STATION_1__RADIUS + 1;
 const STANDSTILL: f64 = 1e-6;
 
 /// Writes the outputs among the Real variables.
-fn write_outputs(
-    reals: &mut [f64],
-    rotor: &Rotor,
-    operation: &Operation,
-    performance: &Performance,
-    shaft: &Shaft,
-) {
+fn write_outputs(reals: &mut [f64], rotor: &Rotor, performance: &Performance, flight: &Flight) {
+    let Flight { shaft, operation } = flight;
     let Performance {
         force: hub_force,
         moment: hub_moment,

@@ -120,6 +120,7 @@ fn models(values: &Values) -> Result<Models, SetupError> {
             InflowModel::WhiteBlake => Inflow::Disc(Skew::WhiteBlake),
             InflowModel::PittPeters => Inflow::Disc(Skew::PittPeters),
             InflowModel::Howlett => Inflow::Disc(Skew::Howlett),
+            InflowModel::PittPetersDynamic => Inflow::PittPetersDynamic,
         },
         tip_loss: match choice(values, integer::MODEL__TIP_LOSS, TipLossModel::from_integer)? {
             TipLossModel::None => TipLoss::None,

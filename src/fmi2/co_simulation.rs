@@ -47,7 +47,7 @@ pub unsafe extern "C" fn fmi2DoStep(
                 "the step would end at {end} s, past stopTime = {stop} s; shorten it or define no stopTime"
             ));
         }
-        instance.block.update()?;
+        instance.block.step(step)?;
         instance.experiment.time = end;
         Ok(())
     };

@@ -8,7 +8,7 @@
 use super::{
     Load,
     element::{Element, LossIn, SectionLoad},
-    inflow::Induced,
+    inflow::{Field, Induced},
 };
 use core::f64::consts::PI;
 use nalgebra::Vector3;
@@ -87,6 +87,26 @@ impl WindAxes {
         )
     }
 
+    /// A field's slopes towards psi = 0 and 90 deg turn like a vector's parts.
+    pub fn field_into_wind(&self, field: &Field) -> Field {
+        let (cosine, sine) = self.into_wind(field.cosine, field.sine);
+        Field {
+            cosine,
+            sine,
+            ..*field
+        }
+    }
+
+    /// The way back.
+    pub fn field_out_of_wind(&self, field: &Field) -> Field {
+        let (cosine, sine) = self.out_of_wind(field.cosine, field.sine);
+        Field {
+            cosine,
+            sine,
+            ..*field
+        }
+    }
+
     /// The way back.
     pub fn out_of_wind(&self, x: f64, y: f64) -> (f64, f64) {
         (x * self.cos - y * self.sin, x * self.sin + y * self.cos)
@@ -139,10 +159,10 @@ impl Default for Azimuths {
 }
 
 impl Azimuths {
-    /// The azimuths of a disc in a flow.
-    pub fn of(&self, flow: &DiscFlow) -> &[Azimuth] {
+    /// The azimuths to average over: one without a direction where all are alike.
+    pub fn of(&self, is_axisymmetric: bool) -> &[Azimuth] {
         const ALIKE: [Azimuth; 1] = [Azimuth { sin: 0.0, cos: 0.0 }];
-        if flow.is_axisymmetric() {
+        if is_axisymmetric {
             &ALIKE
         } else {
             &self.around

@@ -22,8 +22,13 @@ use core::f64::consts::PI;
 use disc::{Azimuths, DiscFlow, Turn, WindAxes, mean_thrust};
 use element::{Element, LossIn, Section};
 use geometry::{Elements, Geometry, Rotation};
-use inflow::{Field, Inflow, Skew, annulus, closed_form, uniform};
-use nalgebra::Vector3;
+use inflow::{
+    Field, Inflow, Skew, annulus, closed_form,
+    linear::Coefficients,
+    pitt_peters::{Loading, Stream},
+    uniform,
+};
+use nalgebra::{Matrix3, Vector3};
 use root::RootError;
 use thiserror::Error;
 use tip_loss::TipLoss;
@@ -97,6 +102,10 @@ pub enum SolveError {
     Annulus { radius_ratio: f64, cause: RootError },
     #[error("the mean inflow of the disc has no solution: {0}")]
     Disc(RootError),
+    #[error("no inflow was found at which its states stand still; set initialization to rest")]
+    Equilibrium,
+    #[error("a step of {0} s is too long for the states of the inflow; shorten it")]
+    StepTooLong(f64),
 }
 
 /// A rotor, cut into elements and ready to compute; it owns the memory that a computation needs.
@@ -185,10 +194,114 @@ impl Rotor {
     /// The blades are rigid and do not flap. A clockwise rotor is computed as the mirror image of
     /// a counter-clockwise one.
     pub fn steady(&mut self, operation: &Operation) -> Result<Performance, SolveError> {
-        let mirror = match self.geometry.rotation {
-            Rotation::CounterClockwise => 1.0,
-            Rotation::Clockwise => -1.0,
+        let (axes, flow) = self.wind(operation);
+        let field = match self.models.inflow {
+            Inflow::Disc(skew) => Some(self.field(skew, &flow, operation)?),
+            Inflow::PittPetersDynamic => Some(axes.field_into_wind(&self.equilibrium(operation)?)),
+            Inflow::Annulus | Inflow::AnnulusClosedForm => None,
         };
+        let sums = self.sums(&flow, operation, field.as_ref())?;
+        Ok(self.performance(&axes, &sums))
+    }
+
+    /// Whether the inflow has states, for which `rate` and `with_inflow` are.
+    pub fn has_memory(&self) -> bool {
+        self.models.inflow == Inflow::PittPetersDynamic
+    }
+
+    /// The rotor in a given inflow, in the axes of the hub (mirrored for a clockwise rotor).
+    pub fn with_inflow(
+        &mut self,
+        operation: &Operation,
+        field: &Field,
+    ) -> Result<Performance, SolveError> {
+        let (axes, flow) = self.wind(operation);
+        let sums = self.sums(&flow, operation, Some(&axes.field_into_wind(field)))?;
+        Ok(self.performance(&axes, &sums))
+    }
+
+    /// How fast the states of the inflow change, m/s2, in the axes of `with_inflow`.
+    pub fn rate(&mut self, operation: &Operation, field: &Field) -> Result<Field, SolveError> {
+        let (axes, flow) = self.wind(operation);
+        let field = axes.field_into_wind(field);
+        let sums = self.sums(&flow, operation, Some(&field))?;
+        let radius = self.geometry.radius;
+        let density_area = operation.air.density * PI * radius * radius;
+        let loading = Loading {
+            thrust: sums.force.z / density_area,
+            cosine: sums.moment.y / (radius * density_area),
+            sine: -sums.moment.x / (radius * density_area),
+        };
+        let rate = self.stream(&flow).rate(&field, &loading);
+        Ok(axes.field_out_of_wind(&rate))
+    }
+
+    /// A bound on how fast the states of the inflow move towards their equilibrium, 1/s.
+    pub fn fastest_rate(&self, operation: &Operation, field: &Field) -> f64 {
+        let (_, flow) = self.wind(operation);
+        let radius = self.geometry.radius;
+        let chord = self.geometry.tip_chord;
+        let solidity = f64::from(self.geometry.blades) * chord / (PI * radius);
+        self.stream(&flow)
+            .fastest_rate(field.mean, solidity, flow.rotation.abs() * radius)
+    }
+
+    /// The inflow at which its states stand still, by Newton's method with differences, from the
+    /// static model of Pitt & Peters; steps that do not come closer are halved.
+    pub fn equilibrium(&mut self, operation: &Operation) -> Result<Field, SolveError> {
+        const STEPS: usize = 40;
+        const HALVINGS: usize = 12;
+        let (axes, flow) = self.wind(operation);
+        let start = self.field(Skew::PittPeters, &flow, operation)?;
+        let scale = flow.rotation.abs() * self.geometry.radius + flow.edgewise + flow.climb.abs();
+        let mut field = axes.field_out_of_wind(&start);
+        if scale == 0.0 {
+            return Ok(field);
+        }
+        let mut rate = Vector3::from(self.rate(operation, &field)?.to_array());
+        for _ in 0..STEPS {
+            let small = 1e-7 * scale;
+            let mut slopes = Matrix3::zeros();
+            for i in 0..3 {
+                let mut other = field.to_array();
+                other[i] += small;
+                let moved = self.rate(operation, &Field::from_array(other))?;
+                slopes.set_column(i, &((Vector3::from(moved.to_array()) - rate) / small));
+            }
+            let Some(step) = slopes.lu().solve(&-rate) else {
+                break;
+            };
+            let mut part = 1.0;
+            for halving in 0..=HALVINGS {
+                let next = field.plus(part, &Field::from_array(step.into()));
+                let next_rate = Vector3::from(self.rate(operation, &next)?.to_array());
+                if next_rate.norm() < rate.norm() || halving == HALVINGS {
+                    (field, rate) = (next, next_rate);
+                    break;
+                }
+                part *= 0.5;
+            }
+            if step.norm() <= 1e-10 * scale {
+                return Ok(field);
+            }
+        }
+        Err(SolveError::Equilibrium)
+    }
+
+    fn stream(&self, flow: &DiscFlow) -> Stream {
+        let DiscFlow {
+            edgewise, climb, ..
+        } = *flow;
+        Stream {
+            edgewise,
+            climb,
+            radius: self.geometry.radius,
+        }
+    }
+
+    /// Axes into the wind, and the disc's flow in them.
+    fn wind(&self, operation: &Operation) -> (WindAxes, DiscFlow) {
+        let mirror = self.mirror();
         let Operation {
             airspeed,
             angular_velocity,
@@ -209,34 +322,48 @@ impl Rotor {
             cyclic_cos,
             cyclic_sin,
         };
-        let sums = self.sums(&flow, operation)?;
+        (axes, flow)
+    }
 
+    /// -1 for a clockwise rotor, which is computed as its mirror image.
+    fn mirror(&self) -> f64 {
+        match self.geometry.rotation {
+            Rotation::CounterClockwise => 1.0,
+            Rotation::Clockwise => -1.0,
+        }
+    }
+
+    fn performance(&self, axes: &WindAxes, sums: &Sums) -> Performance {
+        let mirror = self.mirror();
         let (force_x, force_y) = axes.out_of_wind(sums.force.x, sums.force.y);
         let (moment_x, moment_y) = axes.out_of_wind(sums.moment.x, sums.moment.y);
-        Ok(Performance {
+        Performance {
             force: Vector3::new(force_x, mirror * force_y, sums.force.z),
             moment: Vector3::new(mirror * moment_x, moment_y, mirror * sums.moment.z),
             torque: -sums.moment.z,
             induced_velocity: sums.flux / sums.area,
             stalled_radius: sums.stalled_radius,
             stalled_fraction: sums.stalled / self.elements.len() as f64,
-        })
+        }
     }
 
-    fn sums(&mut self, flow: &DiscFlow, operation: &Operation) -> Result<Sums, SolveError> {
+    /// The loads of all elements, in a field of induced velocity or with the model's own annuli.
+    fn sums(
+        &mut self,
+        flow: &DiscFlow,
+        operation: &Operation,
+        field: Option<&Field>,
+    ) -> Result<Sums, SolveError> {
         let mut sums = Sums::default();
-        let field = match self.models.inflow {
-            Inflow::Disc(skew) => Some(self.field(skew, flow, operation)?),
-            Inflow::Annulus | Inflow::AnnulusClosedForm => None,
-        };
+        let is_axisymmetric = flow.is_axisymmetric() && field.is_none_or(Field::is_axisymmetric);
         for i in 0..self.elements.len() {
             let element = self.element(i, operation);
-            let mut turn = Turn::new(&element, flow, self.azimuths.of(flow));
+            let mut turn = Turn::new(&element, flow, self.azimuths.of(is_axisymmetric));
             let unsolved = |cause| SolveError::Annulus {
                 radius_ratio: element.radius_ratio(),
                 cause,
             };
-            let mean_induced = match (&field, self.models.inflow) {
+            let mean_induced = match (field, self.models.inflow) {
                 (Some(field), _) => {
                     turn.fly(LossIn::Lift, |azimuth| {
                         field.at(element.radius_ratio(), azimuth)
@@ -288,7 +415,12 @@ impl Rotor {
                 }
             };
             let coefficients = skew.coefficients(ratio(flow.edgewise), ratio(flow.climb + mean));
-            Field { mean, coefficients }
+            let Coefficients { kx, ky } = coefficients;
+            Field {
+                mean,
+                cosine: mean * kx,
+                sine: mean * ky,
+            }
         };
         let density_area = operation.air.density * PI * radius * radius;
         let thrust = |mean: f64| {
@@ -296,7 +428,7 @@ impl Rotor {
             let mut thrust = 0.0;
             for i in 0..self.elements.len() {
                 let element = self.element(i, operation);
-                let azimuths = self.azimuths.of(flow);
+                let azimuths = self.azimuths.of(flow.is_axisymmetric());
                 let induced = |azimuth| field.at(element.radius_ratio(), azimuth);
                 let per_length = mean_thrust(&element, flow, LossIn::Lift, azimuths, induced);
                 thrust += per_length * self.elements.width;

@@ -3,12 +3,12 @@
 pub mod annulus;
 pub mod closed_form;
 pub mod linear;
+pub mod pitt_peters;
 pub mod uniform;
 
 pub use linear::Skew;
 
 use super::disc::Azimuth;
-use linear::Coefficients;
 
 /// The choice of model.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -19,6 +19,8 @@ pub enum Inflow {
     AnnulusClosedForm,
     /// Glauert's momentum theory for the disc as a whole, with a distribution over it.
     Disc(Skew),
+    /// Pitt & Peters' three states, which take time to build up.
+    PittPetersDynamic,
 }
 
 /// Velocity induced at a blade, m/s.
@@ -30,21 +32,45 @@ pub struct Induced {
     pub swirl: f64,
 }
 
-/// Induced velocity over the disc: v = mean (1 + x (kx cos psi + ky sin psi)), x = r/R, m/s.
+/// Induced velocity over the disc: v = mean + x (cosine cos psi + sine sin psi), x = r/R, m/s.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Field {
     pub mean: f64,
-    pub coefficients: Coefficients,
+    /// Growth from the shaft to the tip towards psi = 0.
+    pub cosine: f64,
+    /// And towards psi = 90 deg.
+    pub sine: f64,
 }
 
 impl Field {
-    /// At a radius r/R and an azimuth from downwind.
+    /// At a radius r/R and an azimuth.
     pub fn at(&self, radius_ratio: f64, azimuth: Azimuth) -> Induced {
-        let Coefficients { kx, ky } = self.coefficients;
-        let shape = 1.0 + radius_ratio * (kx * azimuth.cos + ky * azimuth.sin);
+        let slope = self.cosine * azimuth.cos + self.sine * azimuth.sin;
         Induced {
-            axial: self.mean * shape,
+            axial: self.mean + radius_ratio * slope,
             swirl: 0.0,
         }
+    }
+
+    /// Whether all azimuths are alike.
+    pub fn is_axisymmetric(&self) -> bool {
+        self.cosine == 0.0 && self.sine == 0.0
+    }
+
+    /// `self + factor * other`.
+    pub fn plus(&self, factor: f64, other: &Self) -> Self {
+        Self {
+            mean: self.mean + factor * other.mean,
+            cosine: self.cosine + factor * other.cosine,
+            sine: self.sine + factor * other.sine,
+        }
+    }
+
+    pub fn to_array(self) -> [f64; 3] {
+        [self.mean, self.cosine, self.sine]
+    }
+
+    pub fn from_array([mean, cosine, sine]: [f64; 3]) -> Self {
+        Self { mean, cosine, sine }
     }
 }

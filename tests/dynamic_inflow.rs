@@ -1,0 +1,225 @@
+//! The inflow of Pitt & Peters with its three states: where it stands still, how it gets there, and
+//! that the answer does not depend on how the importer cuts time.
+
+// The standard library's functions are independent of those under test.
+#![allow(clippy::disallowed_methods)]
+
+use helicopter_rotor::block::{
+    BlockError, RotorBlock,
+    variables::{INTEGERS, integer, real},
+};
+use std::path::PathBuf;
+
+const STEADY: i32 = 1;
+const REST: i32 = 2;
+
+/// The choice of an inflow model by its name.
+fn inflow(name: &str) -> i32 {
+    let choices = INTEGERS[integer::MODEL__INFLOW].choices;
+    choices.iter().position(|c| *c == name).unwrap() as i32 + 1
+}
+
+fn block(model: &str, initialization: i32) -> RotorBlock {
+    let resources = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("modelDescription/resources");
+    let mut block = RotorBlock::new(resources);
+    let places = [integer::MODEL__INFLOW, integer::INITIALIZATION].map(|p| p as u32);
+    block
+        .set_integers(&places, &[inflow(model), initialization])
+        .unwrap();
+    block
+}
+
+fn set(block: &mut RotorBlock, place: usize, value: f64) {
+    block.set_reals(&[place as u32], &[value]).unwrap();
+}
+
+fn get(block: &RotorBlock, place: usize) -> f64 {
+    block.values().reals[place]
+}
+
+#[test]
+fn a_steady_start_stays_where_it_is() {
+    for (speed, climb) in [(0.0, 0.0), (0.0, 3.0), (15.0, 0.0), (25.0, -1.0)] {
+        let mut block = block("pittPetersDynamic", STEADY);
+        set(&mut block, real::VELOCITY_1, speed);
+        set(&mut block, real::VELOCITY_3, climb);
+        block.start().unwrap();
+        let start = get(&block, real::THRUST);
+        for _ in 0..20 {
+            block.step(0.01).unwrap();
+            let thrust = get(&block, real::THRUST);
+            assert!(
+                (thrust / start - 1.0).abs() < 1e-9,
+                "{speed} {climb}: {start} {thrust}"
+            );
+        }
+    }
+}
+
+/// In hover nothing tilts the inflow, and the dynamic model comes to rest at the static one.
+#[test]
+fn in_hover_the_steady_state_is_that_of_the_static_model() {
+    let thrust = |model| {
+        let mut block = block(model, STEADY);
+        block.start().unwrap();
+        get(&block, real::THRUST)
+    };
+    let (dynamic, uniform) = (thrust("pittPetersDynamic"), thrust("uniform"));
+    assert!(
+        (dynamic / uniform - 1.0).abs() < 1e-9,
+        "{dynamic} {uniform}"
+    );
+}
+
+/// From rest the blades first work in still air: more thrust than in the end, which is approached
+/// within some time constants R 8/(3 pi)/(4 v0) = 40 ms.
+#[test]
+fn from_rest_the_thrust_falls_to_the_steady_one() {
+    let mut steady = block("pittPetersDynamic", STEADY);
+    steady.start().unwrap();
+    let end = get(&steady, real::THRUST);
+    let mut block = block("pittPetersDynamic", REST);
+    block.start().unwrap();
+    let mut previous = get(&block, real::THRUST);
+    assert!(previous > 1.5 * end, "{previous} {end}");
+    for _ in 0..60 {
+        block.step(0.01).unwrap();
+        let thrust = get(&block, real::THRUST);
+        assert!(thrust <= previous, "{previous} {thrust}");
+        previous = thrust;
+    }
+    assert!((previous / end - 1.0).abs() < 1e-6, "{previous} {end}");
+}
+
+/// A jump of collective in forward flight, looked at in the middle of the answer.
+fn after_a_jump(steps: &[f64], azimuth_step: f64) -> [f64; 3] {
+    let mut block = block("pittPetersDynamic", STEADY);
+    set(&mut block, real::NUMERICS__AZIMUTH_STEP, azimuth_step);
+    set(&mut block, real::VELOCITY_1, 10.0);
+    set(&mut block, real::COLLECTIVE, 0.05);
+    block.start().unwrap();
+    set(&mut block, real::COLLECTIVE, 0.15);
+    for step in steps {
+        block.step(*step).unwrap();
+    }
+    [real::THRUST, real::HUB_MOMENT_1, real::HUB_MOMENT_2].map(|place| get(&block, place))
+}
+
+#[test]
+fn the_communication_step_does_not_change_the_answer() {
+    let three_degrees = 3.0_f64.to_radians();
+    let once = after_a_jump(&[0.0219], three_degrees);
+    for steps in [vec![0.0073; 3], vec![0.001; 22], vec![0.0002; 110]] {
+        let mut steps = steps;
+        let rest = 0.0219 - steps.iter().sum::<f64>();
+        if rest.abs() > 1e-12 {
+            // The last one makes up the difference, as importers do.
+            let last = steps.len() - 1;
+            steps[last] += rest;
+        }
+        let cut = after_a_jump(&steps, three_degrees);
+        for (a, b) in once.iter().zip(cut) {
+            assert!((a - b).abs() < 1e-12 * once[0].abs(), "{once:?} {cut:?}");
+        }
+    }
+}
+
+#[test]
+fn the_integrator_is_of_second_order() {
+    // A time that is a whole number of all grid cells: 24 degrees at 960 rev/min, 60 times.
+    let time = 24.0 / 360.0 / 16.0 * 5.0;
+    let error = {
+        let reference = after_a_jump(&[time], 0.5_f64.to_radians())[0];
+        move |degrees: f64| (after_a_jump(&[time], degrees.to_radians())[0] - reference).abs()
+    };
+    let (coarse, fine) = (error(8.0), error(4.0));
+    let order = (coarse / fine).log2();
+    assert!(
+        (1.7..2.4).contains(&order),
+        "order {order}: {coarse:e} {fine:e}"
+    );
+}
+
+#[test]
+fn every_flight_is_finite_or_one_clear_error() {
+    let (mut flown, mut refused) = (0, 0);
+    for initialization in [STEADY, REST] {
+        for rpm in [0.0, 480.0, 1440.0] {
+            for edgewise in [0.0, 4.0, 40.0] {
+                for climb in [-12.0, -4.0, 0.0, 12.0] {
+                    for degrees in [-20.0_f64, 0.0, 8.0, 25.0, 40.0] {
+                        let mut block = block("pittPetersDynamic", initialization);
+                        block
+                            .set_integers(&[integer::NUMERICS__ELEMENTS as u32], &[8])
+                            .unwrap();
+                        set(&mut block, real::RPM, rpm);
+                        set(&mut block, real::VELOCITY_1, edgewise);
+                        set(&mut block, real::VELOCITY_3, climb);
+                        set(&mut block, real::COLLECTIVE, degrees.to_radians());
+                        // Outputs that are not finite are an error of another kind.
+                        match block.start().and_then(|()| block.step(0.1)) {
+                            Ok(()) => flown += 1,
+                            Err(BlockError::Unsolved(..)) => refused += 1,
+                            Err(error) => panic!("{error}"),
+                        }
+                    }
+                }
+            }
+        }
+    }
+    println!("{flown} flown, {refused} refused");
+    assert!(refused * 20 < flown, "{flown} flown, {refused} refused");
+}
+
+/// Flying sideways is flying forward, turned.
+#[test]
+fn the_transient_turns_with_the_direction_of_flight() {
+    let fly = |direction: f64| {
+        let mut block = block("pittPetersDynamic", REST);
+        set(&mut block, real::VELOCITY_1, 12.0 * direction.cos());
+        set(&mut block, real::VELOCITY_2, 12.0 * direction.sin());
+        block.start().unwrap();
+        block.step(0.03).unwrap();
+        let [x, y] = [real::HUB_FORCE_1, real::HUB_FORCE_2].map(|place| get(&block, place));
+        let [l, m] = [real::HUB_MOMENT_1, real::HUB_MOMENT_2].map(|place| get(&block, place));
+        let turned = |x: f64, y: f64| {
+            (
+                x * direction.cos() + y * direction.sin(),
+                y * direction.cos() - x * direction.sin(),
+            )
+        };
+        (turned(x, y), turned(l, m), get(&block, real::THRUST))
+    };
+    let (forward, other) = (fly(0.0), fly(2.1));
+    for (a, b) in [
+        (forward.0.0, other.0.0),
+        (forward.0.1, other.0.1),
+        (forward.1.0, other.1.0),
+        (forward.1.1, other.1.1),
+        (forward.2, other.2),
+    ] {
+        assert!((a - b).abs() < 1e-11 * forward.2, "{forward:?} {other:?}");
+    }
+}
+
+/// Wind that turns while the rotor flies leaves the air where it is: the field of induced velocity
+/// stays in the axes of the hub, and no load jumps.
+#[test]
+fn wind_that_turns_makes_no_jump() {
+    let mut block = block("pittPetersDynamic", STEADY);
+    set(&mut block, real::VELOCITY_1, 10.0);
+    block.start().unwrap();
+    let mut previous = get(&block, real::THRUST);
+    for i in 1..=100 {
+        let direction = 0.01 * f64::from(i);
+        set(&mut block, real::VELOCITY_1, 10.0 * direction.cos());
+        set(&mut block, real::VELOCITY_2, 10.0 * direction.sin());
+        block.step(0.002).unwrap();
+        let thrust = get(&block, real::THRUST);
+        assert!(
+            (thrust / previous - 1.0).abs() < 1e-3,
+            "{previous} {thrust}"
+        );
+        previous = thrust;
+    }
+}
