@@ -42,9 +42,8 @@ fn frictionless() -> Airfoil {
     airfoil
 }
 
-/// R = 1 m, from almost the shaft to the tip, without drag and tip loss.
-fn ideal(inflow: Inflow) -> Rotor {
-    let models = Models {
+fn models(inflow: Inflow) -> Models {
+    Models {
         inflow,
         tip_loss: TipLoss::None,
         section: SectionModel {
@@ -52,9 +51,13 @@ fn ideal(inflow: Inflow) -> Rotor {
             compressibility: Compressibility::None,
             drag_reynolds_exponent: 0.0,
         },
-    };
+    }
+}
+
+/// R = 1 m, from almost the shaft to the tip, without drag and tip loss.
+fn ideal(inflow: Inflow) -> Rotor {
     let geometry = Geometry::linear(BLADES, 1.0, 0.01, CHORD, 1.0, 0.0);
-    Rotor::new(geometry, vec![frictionless()], models, 100)
+    Rotor::new(geometry, vec![frictionless()], models(inflow), 100)
 }
 
 fn flight(collective: f64, airspeed: Vector3<f64>) -> Operation {
@@ -248,24 +251,44 @@ fn a_clockwise_rotor_is_the_mirror_image() {
         angular_velocity: -mirrored(operation.angular_velocity),
         ..operation
     };
-    let mut rotor = ideal(Inflow::Disc(Skew::Drees));
-    let a = rotor.steady(&operation).unwrap();
-    let mut geometry = rotor.geometry().clone();
-    geometry.rotation = Rotation::Clockwise;
-    let models = Models {
-        inflow: Inflow::Disc(Skew::Drees),
-        tip_loss: TipLoss::None,
-        section: SectionModel {
-            lift: Lift::TwoPi,
-            compressibility: Compressibility::None,
-            drag_reynolds_exponent: 0.0,
-        },
-    };
-    let mut clockwise = Rotor::new(geometry, vec![frictionless()], models, 100);
-    let b = clockwise.steady(&other).unwrap();
-    assert_eq!(mirrored(a.force), b.force);
-    assert_eq!(-mirrored(a.moment), b.moment);
-    assert_eq!(a.torque, b.torque);
+    for inflow in [
+        Inflow::Annulus,
+        Inflow::Disc(Skew::Drees),
+        Inflow::PittPetersDynamic,
+    ] {
+        let mut rotor = ideal(inflow);
+        let a = rotor.steady(&operation).unwrap();
+        let mut geometry = rotor.geometry().clone();
+        geometry.rotation = Rotation::Clockwise;
+        let mut clockwise = Rotor::new(geometry, vec![frictionless()], models(inflow), 100);
+        let b = clockwise.steady(&other).unwrap();
+        assert_eq!(mirrored(a.force), b.force);
+        assert_eq!(-mirrored(a.moment), b.moment);
+        assert_eq!(a.torque, b.torque);
+    }
+}
+
+/// A rotor that runs down in wind comes to rest as a rotor at rest, with every distribution.
+#[test]
+fn the_linear_models_go_over_to_a_rotor_at_rest_without_a_jump() {
+    for skew in Skew::ALL {
+        let mut rotor = ideal(Inflow::Disc(skew));
+        let mut at = |speed: f64| {
+            let mut operation = flight(0.14, Vector3::new(15.0, 0.0, 0.0));
+            operation.speed = speed;
+            rotor.steady(&operation).unwrap()
+        };
+        let rest = at(0.0);
+        for speed in [1e-9, 1e-3, 0.1] {
+            let slow = at(speed);
+            let thrust = slow.force.z / rest.force.z - 1.0;
+            let moment = (slow.moment - rest.moment).norm() / rest.force.z;
+            assert!(
+                thrust.abs() < 0.05 && moment < 0.05,
+                "{skew:?} at {speed}: {thrust} {moment}"
+            );
+        }
+    }
 }
 
 /// The default model goes over from hover to forward flight without a jump.

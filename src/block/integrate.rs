@@ -1,7 +1,7 @@
 //! Time integration of the rotor's states.
 //!
 //! Heun's method (order 2; Heun 1900, Z. Math. Phys. 45, p. 23) on a grid of azimuth that begins where
-//! the simulation does. A communication point between two grid points is met exactly, by a shorter step
+//! the simulation does, and anew where the inputs change. A communication point between two grid points is met exactly, by a shorter step
 //! from the grid point before; the next step goes on from that grid point, not from the
 //! communication point, as long as the inputs stay the same. So constant inputs give the same answer
 //! to the last bits whatever the communication step.
@@ -14,8 +14,6 @@ pub struct Memory {
     /// At present.
     pub inflow: Field,
     since: Option<Since>,
-    /// Part of the grid cell that had passed when the inputs last changed.
-    cell_passed: f64,
 }
 
 /// The beginning of the stretch with the present inputs, or the last grid point in it.
@@ -40,6 +38,9 @@ const MOST_STEPS: u32 = 100_000;
 /// stand still.
 const STANDSTILL: f64 = 1e-15;
 
+/// The same, m/s, for a rotor that stands in still air, whose own wake dies away ever more slowly.
+const STILL_AIR: f64 = 1e-8;
+
 impl Memory {
     /// States to start from.
     pub fn starting(inflow: Field) -> Self {
@@ -58,31 +59,27 @@ pub fn advance(
     duration: f64,
     azimuth_step: f64,
 ) -> Result<Memory, SolveError> {
-    let cell = |operation: &Operation| {
-        let turn = azimuth_step / operation.speed; // infinite for a rotor at rest
-        turn.min(LONGEST_CELL)
-    };
-    let mut memory = *memory;
+    // Infinite for a rotor at rest.
+    let cell = (azimuth_step / operation.speed).min(LONGEST_CELL);
     let mut since = match memory.since {
         Some(since) if since.operation == *operation => since,
-        before => {
-            let passed = before.map_or(0.0, |b| b.elapsed / cell(&b.operation));
-            memory.cell_passed = (memory.cell_passed + passed).min(1.0);
-            Since {
-                operation: *operation,
-                inflow: memory.inflow,
-                elapsed: 0.0,
-            }
-        }
+        _ => Since {
+            operation: *operation,
+            inflow: memory.inflow,
+            elapsed: 0.0,
+        },
     };
-    let cell = cell(operation);
-    let scale = operation.speed * rotor.geometry().radius + operation.airspeed.norm();
+    let speeds = operation.speed * rotor.geometry().radius + operation.airspeed.norm();
+    let still = if speeds > 0.0 {
+        STANDSTILL * speeds
+    } else {
+        STILL_AIR
+    };
     let mut left = since.elapsed + duration;
     let mut steps = 0;
     loop {
-        let to_grid = (1.0 - memory.cell_passed) * cell;
-        let reaches_grid = left >= to_grid * (1.0 - 1e-9);
-        let part = if reaches_grid { to_grid } else { left };
+        let reaches_grid = left >= cell * (1.0 - 1e-9);
+        let part = if reaches_grid { cell } else { left };
         let inflow = integrate(rotor, operation, &since.inflow, part, &mut steps)
             .and_then(|inflow| inflow.ok_or(SolveError::StepTooLong(duration)))?;
         if !reaches_grid {
@@ -90,25 +87,21 @@ pub fn advance(
             return Ok(Memory {
                 inflow,
                 since: Some(since),
-                ..memory
             });
         }
         let change = inflow.plus(-1.0, &since.inflow).to_array();
-        let stands_still =
-            part > 0.5 * cell && change.iter().all(|c| c.abs() <= STANDSTILL * scale);
+        let stands_still = change.iter().all(|c| c.abs() <= still);
         left = if stands_still {
             0.0
         } else {
             (left - part).max(0.0)
         };
-        memory.cell_passed = 0.0;
         since.inflow = inflow;
         since.elapsed = left;
         if left == 0.0 {
             return Ok(Memory {
                 inflow,
                 since: Some(since),
-                ..memory
             });
         }
     }

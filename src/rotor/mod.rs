@@ -236,11 +236,16 @@ impl Rotor {
         Ok(axes.field_out_of_wind(&rate))
     }
 
-    /// A bound on how fast the states of the inflow move towards their equilibrium, 1/s.
+    /// An estimate of how fast the states of the inflow move towards their equilibrium, 1/s.
     pub fn fastest_rate(&self, operation: &Operation, field: &Field) -> f64 {
         let (_, flow) = self.wind(operation);
         let radius = self.geometry.radius;
-        let chord = self.geometry.tip_chord;
+        let chord = self
+            .geometry
+            .stations
+            .iter()
+            .map(|s| s.chord)
+            .fold(0.0, f64::max);
         let solidity = f64::from(self.geometry.blades) * chord / (PI * radius);
         self.stream(&flow)
             .fastest_rate(field.mean, solidity, flow.rotation.abs() * radius)
@@ -260,6 +265,9 @@ impl Rotor {
         }
         let mut rate = Vector3::from(self.rate(operation, &field)?.to_array());
         for _ in 0..STEPS {
+            if !rate.norm().is_finite() {
+                return Err(SolveError::Disc(RootError::NotFinite));
+            }
             let small = 1e-7 * scale;
             let mut slopes = Matrix3::zeros();
             for i in 0..3 {
@@ -407,14 +415,8 @@ impl Rotor {
         let radius = self.geometry.radius;
         let tip_speed = flow.rotation.abs() * radius;
         let distributed = |mean: f64| {
-            let ratio = |speed: f64| {
-                if tip_speed > 0.0 {
-                    speed / tip_speed
-                } else {
-                    0.0
-                }
-            };
-            let coefficients = skew.coefficients(ratio(flow.edgewise), ratio(flow.climb + mean));
+            let through = flow.climb + mean;
+            let coefficients = skew.coefficients(flow.edgewise, through, tip_speed);
             let Coefficients { kx, ky } = coefficients;
             Field {
                 mean,

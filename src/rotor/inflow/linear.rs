@@ -24,6 +24,10 @@ pub enum Skew {
     Howlett,
 }
 
+/// Largest advance ratio that enters Drees' kx and ky by itself. His fit is one to advance ratios of
+/// helicopters; a slow rotor in wind has any, for which its terms have no meaning.
+const LARGEST_MU: f64 = 0.5;
+
 /// The distribution's coefficients.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Coefficients {
@@ -42,24 +46,33 @@ impl Skew {
         Self::Howlett,
     ];
 
-    /// Coefficients at the advance ratio `mu` >= 0 and inflow ratio `lambda` (any sign).
+    /// Coefficients in a flow along the disc (>= 0) and through it (any sign), m/s, for a rotor of the
+    /// given tip speed, m/s.
     ///
-    /// The wake's skew is chi = atan(mu/|lambda|): a wake that leaves upwards is skewed like one
-    /// that leaves downwards. Written with h = sqrt(mu^2 + lambda^2), sin chi = mu/h and
-    /// tan(chi/2) = mu/(h + |lambda|), nothing divides by zero but at a standstill, where all are 0.
-    pub fn coefficients(self, mu: f64, lambda: f64) -> Coefficients {
-        let flow = libm::hypot(mu, lambda);
+    /// The wake's skew is chi = atan(edgewise/|through|): a wake that leaves upwards is skewed like one
+    /// that leaves downwards. Written with h = sqrt(edgewise^2 + through^2), sin chi = edgewise/h and
+    /// tan(chi/2) = edgewise/(h + |through|), nothing divides by zero but in still air, where all are 0.
+    /// Drees' terms in mu alone are held beyond `LARGEST_MU`.
+    pub fn coefficients(self, edgewise: f64, through: f64, tip_speed: f64) -> Coefficients {
+        let flow = libm::hypot(edgewise, through);
         if flow == 0.0 {
             return Coefficients::default();
         }
-        let sin = mu / flow;
-        let half_tangent = mu / (flow + lambda.abs());
+        let sin = edgewise / flow;
+        let half_tangent = edgewise / (flow + through.abs());
+        let mu = if edgewise < LARGEST_MU * tip_speed {
+            edgewise / tip_speed
+        } else {
+            LARGEST_MU
+        };
         let kx = match self {
             Self::Uniform => 0.0,
             Self::Coleman => half_tangent,
-            // (1 - cos chi)/sin chi = tan(chi/2), mu^2/sin chi = mu h.
-            Self::Drees => 4.0 / 3.0 * (half_tangent - 1.8 * mu * flow),
-            Self::Payne => 4.0 / 3.0 * mu / (1.2 * lambda.abs() + mu),
+            // (1 - cos chi)/sin chi = tan(chi/2). With mu = lambda tan chi the second term vanishes in
+            // axial flow; where mu is held, sin chi is near 1.
+            Self::Drees if sin > 0.0 => 4.0 / 3.0 * (half_tangent - 1.8 * mu * mu / sin),
+            Self::Drees => 0.0,
+            Self::Payne => 4.0 / 3.0 * edgewise / (1.2 * through.abs() + edgewise),
             Self::WhiteBlake => SQRT_2 * sin,
             Self::PittPeters => 15.0 * PI / 32.0 * half_tangent,
             Self::Howlett => sin * sin,
@@ -97,7 +110,7 @@ mod tests {
             for skew in Skew::ALL {
                 let (kx, ky) = expected(skew);
                 for lambda in [lambda, -lambda] {
-                    let found = skew.coefficients(mu, lambda);
+                    let found = skew.coefficients(100.0 * mu, 100.0 * lambda, 100.0);
                     assert!(
                         (found.kx - kx).abs() < 1e-13,
                         "{skew:?} at {degrees}: {found:?}"
@@ -111,8 +124,8 @@ mod tests {
         }
         // Two numbers by hand: tan(30 deg) and sqrt(2) sin(60 deg).
         let mu = 0.05 * 3.0_f64.sqrt();
-        assert!((Skew::Coleman.coefficients(mu, 0.05).kx - 0.577_350_269).abs() < 1e-9);
-        assert!((Skew::WhiteBlake.coefficients(mu, 0.05).kx - 1.224_744_871).abs() < 1e-9);
+        assert!((Skew::Coleman.coefficients(mu, 0.05, 1.0).kx - 0.577_350_269).abs() < 1e-9);
+        assert!((Skew::WhiteBlake.coefficients(mu, 0.05, 1.0).kx - 1.224_744_871).abs() < 1e-9);
     }
 
     #[test]
@@ -124,8 +137,8 @@ mod tests {
             Skew::PittPeters,
             Skew::Howlett,
         ] {
-            assert_eq!(skew.coefficients(0.0, 0.05).kx, 0.0);
-            assert_eq!(skew.coefficients(0.0, 0.0).kx, 0.0);
+            assert_eq!(skew.coefficients(0.0, 0.05, 1.0).kx, 0.0);
+            assert_eq!(skew.coefficients(0.0, 0.0, 1.0).kx, 0.0);
         }
     }
 }

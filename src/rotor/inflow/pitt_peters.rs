@@ -96,13 +96,14 @@ impl Stream {
         }
     }
 
-    /// A bound on how fast the states move towards their equilibrium, 1/s, for steps in time. To
-    /// what the wake carries away comes the damping by the blades, at most a lift slope of 2 pi:
+    /// An estimate of how fast the states move towards their equilibrium, 1/s, for steps in time. To
+    /// what the wake carries away comes the damping by the blades with a lift slope of 2 pi:
     /// `solidity` N c/(pi R), `tip_speed` m/s.
     pub fn fastest_rate(&self, induced: f64, solidity: f64, tip_speed: f64) -> f64 {
         let gains = self.gains(induced);
-        let wake =
-            2.0 * gains.mean / APPARENT_MASS + (gains.cosine + gains.sine) / APPARENT_INERTIA;
+        // The mass flow changes with the mean as well, which counts where it nearly vanishes.
+        let mean = 2.0 * gains.mean + 2.0 * induced.abs();
+        let wake = mean / APPARENT_MASS + (gains.cosine + gains.sine) / APPARENT_INERTIA;
         let speed = tip_speed + self.edgewise;
         let blades =
             solidity * 2.0 * PI * speed * (0.25 / APPARENT_MASS + 0.125 / APPARENT_INERTIA);
