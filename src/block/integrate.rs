@@ -1,10 +1,10 @@
 //! Time integration of the rotor's states.
 //!
 //! Heun's method (order 2; Heun 1900, Z. Math. Phys. 45, p. 23) on a grid of azimuth that begins where
-//! the simulation does, and anew where the inputs change. A communication point between two grid points is met exactly, by a shorter step
-//! from the grid point before; the next step goes on from that grid point, not from the
-//! communication point, as long as the inputs stay the same. So constant inputs give the same answer
-//! to the last bits whatever the communication step.
+//! the simulation does, and anew where the inputs change. A communication point between two grid
+//! points is met exactly, by a shorter step from the grid point before; the next step goes on from that
+//! grid point, not from the communication point, as long as the inputs stay the same. So constant
+//! inputs give the same answer, to the rounding of times, whatever the communication step.
 
 use crate::rotor::{Operation, Rotor, SolveError, inflow::Field};
 

@@ -204,7 +204,8 @@ impl Rotor {
         Ok(self.performance(&axes, &sums))
     }
 
-    /// Whether the inflow has states, for which `rate` and `with_inflow` are.
+    /// Whether the inflow has states: then `equilibrium`, `rate` and `with_inflow` move the rotor on in
+    /// time, and `steady` is where it comes to rest.
     pub fn has_memory(&self) -> bool {
         self.models.inflow == Inflow::PittPetersDynamic
     }

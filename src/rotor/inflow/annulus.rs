@@ -10,9 +10,9 @@
 //! W = U cos(phi - phi0),   magnitude of the induced velocity U |sin(phi - phi0)|
 //! ```
 //!
-//! at the inflow angle phi, which is the annulus' only unknown. Drag makes no circulation and so induces nothing (Wilson
-//! & Lissaman 1974, "Applied Aerodynamics of Wind Power Machines", ch. 3); with drag in the swirl,
-//! blades at zero lift in hover would stand in air that turns with them.
+//! at the inflow angle phi, which is the annulus' only unknown. Drag makes no circulation and so
+//! induces nothing (Wilson & Lissaman 1974, "Applied Aerodynamics of Wind Power Machines", ch. 3);
+//! with drag in the swirl, blades at zero lift in hover would stand in air that turns with them.
 //!
 //! Momentum. The lift of the element's N blades equals the momentum given to the air that passes
 //! through the annulus at W |sin phi| (Glauert 1935, ch. VII.4, with Prandtl's F):

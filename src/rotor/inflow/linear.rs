@@ -24,9 +24,9 @@ pub enum Skew {
     Howlett,
 }
 
-/// Largest advance ratio that enters Drees' kx and ky by itself. His fit is one to advance ratios of
-/// helicopters; a slow rotor in wind has any, for which its terms have no meaning.
-const LARGEST_MU: f64 = 0.5;
+/// Flow through and along the disc, as a part of tip speed, beyond which Drees' terms in mu alone stay
+/// as they are. His fit is one to advance ratios of helicopters; a slow rotor in wind has any.
+const LARGEST_FLOW: f64 = 0.5;
 
 /// The distribution's coefficients.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -52,7 +52,7 @@ impl Skew {
     /// The wake's skew is chi = atan(edgewise/|through|): a wake that leaves upwards is skewed like one
     /// that leaves downwards. Written with h = sqrt(edgewise^2 + through^2), sin chi = edgewise/h and
     /// tan(chi/2) = edgewise/(h + |through|), nothing divides by zero but in still air, where all are 0.
-    /// Drees' terms in mu alone are held beyond `LARGEST_MU`.
+    /// Drees' terms in mu alone are held beyond `LARGEST_FLOW`.
     pub fn coefficients(self, edgewise: f64, through: f64, tip_speed: f64) -> Coefficients {
         let flow = libm::hypot(edgewise, through);
         if flow == 0.0 {
@@ -60,18 +60,13 @@ impl Skew {
         }
         let sin = edgewise / flow;
         let half_tangent = edgewise / (flow + through.abs());
-        let mu = if edgewise < LARGEST_MU * tip_speed {
-            edgewise / tip_speed
-        } else {
-            LARGEST_MU
-        };
+        let reference = tip_speed.max(flow / LARGEST_FLOW);
+        let mu = edgewise / reference;
         let kx = match self {
             Self::Uniform => 0.0,
             Self::Coleman => half_tangent,
-            // (1 - cos chi)/sin chi = tan(chi/2). With mu = lambda tan chi the second term vanishes in
-            // axial flow; where mu is held, sin chi is near 1.
-            Self::Drees if sin > 0.0 => 4.0 / 3.0 * (half_tangent - 1.8 * mu * mu / sin),
-            Self::Drees => 0.0,
+            // (1 - cos chi)/sin chi = tan(chi/2), and mu/sin chi = h/tip speed.
+            Self::Drees => 4.0 / 3.0 * (half_tangent - 1.8 * mu * flow / reference),
             Self::Payne => 4.0 / 3.0 * edgewise / (1.2 * through.abs() + edgewise),
             Self::WhiteBlake => SQRT_2 * sin,
             Self::PittPeters => 15.0 * PI / 32.0 * half_tangent,
@@ -126,6 +121,23 @@ mod tests {
         let mu = 0.05 * 3.0_f64.sqrt();
         assert!((Skew::Coleman.coefficients(mu, 0.05, 1.0).kx - 0.577_350_269).abs() < 1e-9);
         assert!((Skew::WhiteBlake.coefficients(mu, 0.05, 1.0).kx - 1.224_744_871).abs() < 1e-9);
+    }
+
+    /// Also of a rotor at rest, in wind from any side.
+    #[test]
+    fn no_flow_makes_a_distribution_of_another_size_than_the_mean() {
+        for skew in Skew::ALL {
+            for (edgewise, through) in [(1e-9, 10.0), (10.0, 1e-9), (10.0, 10.0), (1e-9, 1e-9)] {
+                for tip_speed in [0.0, 1e-9, 1.0, 100.0] {
+                    let Coefficients { kx, ky } = skew.coefficients(edgewise, through, tip_speed);
+                    let size = kx.abs().max(ky.abs());
+                    assert!(
+                        size < 1.5,
+                        "{skew:?} {edgewise} {through} {tip_speed}: {kx} {ky}"
+                    );
+                }
+            }
+        }
     }
 
     #[test]
