@@ -4,10 +4,14 @@
 //! of x; the rotor turns counter-clockwise seen from above (a clockwise one is mirrored before it
 //! comes here). The azimuth psi counts from downwind in the turning sense, so that with flow along
 //! the disc the blade advances at psi = 90 deg.
+//!
+//! A blade at psi points along e_r = (-cos psi, -sin psi, 0) and moves along e_t = (sin psi, -cos psi,
+//! 0). Beyond its hinge at the radius h it is turned up by the flap angle beta: the section at the
+//! distance s from the hinge lies at X e_r + Z e_z with X = h + s cos beta, Z = s sin beta, and n =
+//! cos beta e_z - sin beta e_r is perpendicular to the blade.
 
 use super::{
-    Load,
-    element::{Element, LossIn, SectionLoad},
+    flapping::Flap,
     inflow::{Field, Induced},
 };
 use core::f64::consts::PI;
@@ -16,13 +20,14 @@ use nalgebra::Vector3;
 /// Number of azimuths over which a disc without axial symmetry is averaged. All harmonics of the
 /// loads up to the 23rd are averaged exactly; against 144 azimuths, the thrust of the default rotor
 /// at an advance ratio of 0.26 differs by 1e-6.
-const AZIMUTHS: usize = 24;
+pub const AZIMUTHS: usize = 24;
 
 /// The motion of the disc through the air, without what it induces. SI units, rad.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct DiscFlow {
-    /// Rotor speed against the air, rad/s.
+    /// Rotor speed against the air, and against the hub, rad/s.
     pub rotation: f64,
+    pub speed: f64,
     /// Speed along the disc, >= 0, m/s.
     pub edgewise: f64,
     /// Speed along the shaft, climb positive, m/s.
@@ -33,13 +38,15 @@ pub struct DiscFlow {
     /// Pitch = collective + twist - cyclic_cos cos(psi) - cyclic_sin sin(psi).
     pub cyclic_cos: f64,
     pub cyclic_sin: f64,
+    /// Radius beyond which the blades flap, m.
+    pub hinge: f64,
 }
 
 /// What a quantity of the hub needs to be turned into the axes of `DiscFlow`, and back.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WindAxes {
-    cos: f64,
-    sin: f64,
+    pub cos: f64,
+    pub sin: f64,
 }
 
 /// One azimuth. On an axially symmetrical disc there is a single one without a direction.
@@ -49,21 +56,41 @@ pub struct Azimuth {
     pub cos: f64,
 }
 
-/// The flow that meets a blade's section, without what the rotor induces, and its pitch.
+/// Where a blade is: its azimuth and how it flaps.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Encounter {
-    /// Change of the pitch by cyclic control, rad.
-    pub cyclic: f64,
-    /// U_T: against the motion of the blade, m/s.
-    pub in_plane: f64,
-    /// U_P: down through the disc, m/s.
-    pub through: f64,
+pub struct Place {
+    pub azimuth: Azimuth,
+    pub flap: Flap,
+    pub flap_sin: f64,
+    pub flap_cos: f64,
+    /// Change of the pitch by flapping (delta3), rad.
+    pub pitch: f64,
 }
 
-/// The azimuths to average over.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Azimuths {
-    around: [Azimuth; AZIMUTHS],
+/// The flow that meets a blade's section, without what the rotor induces; its pitch and its place.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Encounter {
+    /// Change of the pitch by cyclic control and flapping, rad.
+    pub pitch: f64,
+    /// U_T: against the motion of the blade, m/s.
+    pub in_plane: f64,
+    /// U_P: against n, m/s.
+    pub through: f64,
+    /// Sine and cosine of the section's flap angle.
+    pub flap_sin: f64,
+    pub flap_cos: f64,
+    /// s, m: distance from the hinge, 0 inside it.
+    pub outboard: f64,
+    /// X and Z, m.
+    pub out: f64,
+    pub up: f64,
+}
+
+/// The places of the blades, or those over which the disc is averaged.
+#[derive(Debug, Clone, Copy)]
+pub struct Places {
+    all: [Place; AZIMUTHS],
+    count: usize,
 }
 
 impl WindAxes {
@@ -113,6 +140,41 @@ impl WindAxes {
     }
 }
 
+impl Place {
+    /// A blade at an azimuth that flaps with `flap`; `pitch` (rad) is what flapping adds to its pitch.
+    pub fn new(azimuth: Azimuth, flap: Flap, pitch: f64) -> Self {
+        Self {
+            azimuth,
+            flap,
+            flap_sin: libm::sin(flap.angle),
+            flap_cos: libm::cos(flap.angle),
+            pitch,
+        }
+    }
+}
+
+impl Places {
+    /// At most `AZIMUTHS` places.
+    pub fn new(places: impl Iterator<Item = Place>) -> Self {
+        let nowhere = Place::new(Azimuth::default(), Flap::default(), 0.0);
+        let mut all = [nowhere; AZIMUTHS];
+        let mut count = 0;
+        for (slot, place) in all.iter_mut().zip(places) {
+            *slot = place;
+            count += 1;
+        }
+        Self { all, count }
+    }
+}
+
+impl std::ops::Deref for Places {
+    type Target = [Place];
+
+    fn deref(&self) -> &[Place] {
+        &self.all[..self.count]
+    }
+}
+
 impl DiscFlow {
     /// Whether all azimuths are alike.
     pub fn is_axisymmetric(&self) -> bool {
@@ -129,162 +191,52 @@ impl DiscFlow {
             .all(|x| *x == 0.0)
     }
 
-    /// What a section at `radius` (m) meets at an azimuth: thesis eqs. (101) and (102) with the
-    /// angular velocity of the hub and without flapping.
-    ///
-    /// The blade points along e_r = (-cos psi, -sin psi, 0) and moves along e_t = (sin psi,
-    /// -cos psi, 0); the angular velocity (p, q) of the hub lifts it with r (q cos psi - p sin psi).
-    pub fn meets(&self, radius: f64, azimuth: Azimuth) -> Encounter {
+    /// Angular velocity of the hub about a blade's e_r and e_t, rad/s.
+    pub fn hub_rates(&self, azimuth: Azimuth) -> (f64, f64) {
         let Azimuth { sin, cos } = azimuth;
-        Encounter {
-            cyclic: -self.cyclic_cos * cos - self.cyclic_sin * sin,
-            in_plane: self.rotation * radius + self.edgewise * sin,
-            through: self.climb + radius * (self.pitch_rate * cos - self.roll_rate * sin),
-        }
+        (
+            -self.roll_rate * cos - self.pitch_rate * sin,
+            self.roll_rate * sin - self.pitch_rate * cos,
+        )
     }
-}
 
-impl Default for Azimuths {
-    fn default() -> Self {
-        let around = std::array::from_fn(|i| {
-            // Half a step off the axes: no azimuth lies exactly where the flow reverses.
-            let psi = 2.0 * PI * (i as f64 + 0.5) / AZIMUTHS as f64;
-            Azimuth {
-                sin: libm::sin(psi),
-                cos: libm::cos(psi),
-            }
-        });
-        Self { around }
-    }
-}
-
-impl Azimuths {
-    /// The azimuths to average over: one without a direction where all are alike.
-    pub fn of(&self, is_axisymmetric: bool) -> &[Azimuth] {
-        const ALIKE: [Azimuth; 1] = [Azimuth { sin: 0.0, cos: 0.0 }];
-        if is_axisymmetric {
-            &ALIKE
+    /// What a section at `radius` (m, along the blade) meets: thesis eqs. (101) and (102) with the angular
+    /// velocity of the hub and without small angles. The velocity of the section, V + w x (X e_r + Z e_z)
+    /// + beta' s n, along e_t and against n. U_R of eq. (103), along the blade, has no effect on a section
+    /// (independence principle) and is left out; so is the sideslip's effect on drag and stall.
+    pub fn meets(&self, radius: f64, place: &Place) -> Encounter {
+        let Azimuth { sin, cos } = place.azimuth;
+        let outboard = (radius - self.hinge).max(0.0);
+        let (flap_sin, flap_cos) = if outboard > 0.0 {
+            (place.flap_sin, place.flap_cos)
         } else {
-            &self.around
+            (0.0, 1.0)
+        };
+        let inboard = radius - outboard;
+        let (out, up) = (inboard + outboard * flap_cos, outboard * flap_sin);
+        let (radial_rate, tangential_rate) = self.hub_rates(place.azimuth);
+        Encounter {
+            pitch: place.pitch - self.cyclic_cos * cos - self.cyclic_sin * sin,
+            in_plane: self.rotation * out + self.edgewise * sin - radial_rate * up,
+            through: flap_cos * self.climb + flap_sin * self.edgewise * cos
+                - tangential_rate * (outboard + inboard * flap_cos)
+                + outboard * place.flap.rate,
+            flap_sin,
+            flap_cos,
+            outboard,
+            out,
+            up,
         }
     }
 }
 
-/// The loads of one blade's section at an azimuth, in an induced velocity.
-fn section_load(
-    element: &Element,
-    flow: &DiscFlow,
-    loss: LossIn,
-    azimuth: Azimuth,
-    induced: Induced,
-) -> SectionLoad {
-    let meets = flow.meets(element.radius, azimuth);
-    let pitch = element.pitch + meets.cyclic;
-    element.load(
-        pitch,
-        meets.in_plane - induced.swirl,
-        meets.through + induced.axial,
-        loss,
-    )
-}
-
-/// Thrust of all blades' sections per unit of radius, N/m, as a mean over the turn.
-pub fn mean_thrust(
-    element: &Element,
-    flow: &DiscFlow,
-    loss: LossIn,
-    azimuths: &[Azimuth],
-    induced: impl Fn(Azimuth) -> Induced,
-) -> f64 {
-    let normal = |a: &Azimuth| section_load(element, flow, loss, *a, induced(*a)).normal;
-    azimuths.iter().map(normal).sum::<f64>() / azimuths.len() as f64 * element.blades
-}
-
-/// One element on its way around the azimuth: the loads of all blades per unit of radius, as means
-/// over the turn, in the axes of the disc's flow.
-#[derive(Debug)]
-pub struct Turn<'a> {
-    element: &'a Element<'a>,
-    flow: &'a DiscFlow,
-    pub azimuths: &'a [Azimuth],
-    /// N/m.
-    pub force: Vector3<f64>,
-    /// About the hub's centre, N.
-    pub moment: Vector3<f64>,
-    /// Share of the turn in which the element is stalled.
-    pub stalled: f64,
-    angle_of_attack: f64,
-    speed: f64,
-    lift_coefficient: f64,
-    drag_coefficient: f64,
-    induced: f64,
-}
-
-impl<'a> Turn<'a> {
-    pub fn new(element: &'a Element<'a>, flow: &'a DiscFlow, azimuths: &'a [Azimuth]) -> Self {
-        Self {
-            element,
-            flow,
-            azimuths,
-            force: Vector3::zeros(),
-            moment: Vector3::zeros(),
-            stalled: 0.0,
-            angle_of_attack: 0.0,
-            speed: 0.0,
-            lift_coefficient: 0.0,
-            drag_coefficient: 0.0,
-            induced: 0.0,
+/// Azimuths evenly around the disc, half a step off the axes: none lies exactly where the flow reverses.
+pub fn around() -> [Azimuth; AZIMUTHS] {
+    std::array::from_fn(|i| {
+        let psi = 2.0 * PI * (i as f64 + 0.5) / AZIMUTHS as f64;
+        Azimuth {
+            sin: libm::sin(psi),
+            cos: libm::cos(psi),
         }
-    }
-
-    /// Flies the element around in the induced velocity of each azimuth.
-    pub fn fly(&mut self, loss: LossIn, induced: impl Fn(Azimuth) -> Induced) {
-        let share = 1.0 / self.azimuths.len() as f64;
-        for azimuth in self.azimuths {
-            let induced = induced(*azimuth);
-            let load = section_load(self.element, self.flow, loss, *azimuth, induced);
-            self.add(&load, induced.axial, *azimuth, share);
-        }
-    }
-
-    /// Takes the same load and axial induced velocity (m/s) at all azimuths.
-    pub fn take(&mut self, load: &SectionLoad, induced: f64) {
-        self.add(load, induced, Azimuth::default(), 1.0);
-    }
-
-    /// A section's force is `normal` up and `tangential` against e_t = (sin psi, -cos psi, 0), at
-    /// the place r e_r = -r (cos psi, sin psi, 0).
-    fn add(&mut self, load: &SectionLoad, induced: f64, azimuth: Azimuth, share: f64) {
-        let Azimuth { sin, cos } = azimuth;
-        let blades = share * self.element.blades;
-        let (normal, tangential) = (blades * load.normal, blades * load.tangential);
-        self.force += Vector3::new(-tangential * sin, tangential * cos, normal);
-        let radius = self.element.radius;
-        self.moment += Vector3::new(-normal * sin, normal * cos, -tangential) * radius;
-        self.angle_of_attack += share * load.angle_of_attack;
-        self.speed += share * load.speed;
-        self.lift_coefficient += share * load.lift_coefficient;
-        self.drag_coefficient += share * load.drag_coefficient;
-        self.induced += share * induced;
-        if self.element.is_stalled(load) {
-            self.stalled += share;
-        }
-    }
-
-    /// The means of the turn.
-    pub fn load(&self, mean_induced: f64) -> Load {
-        let flow = self.element.similarity(self.speed);
-        Load {
-            thrust: self.force.z,
-            torque: -self.moment.z,
-            angle_of_attack: self.angle_of_attack,
-            induced_velocity: self.induced,
-            mean_induced_velocity: mean_induced,
-            speed: self.speed,
-            lift_coefficient: self.lift_coefficient,
-            drag_coefficient: self.drag_coefficient,
-            reynolds: flow.reynolds,
-            mach: flow.mach,
-        }
-    }
+    })
 }

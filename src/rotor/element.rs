@@ -3,7 +3,7 @@
 use super::{
     airfoil::{Airfoil, SectionModel, Similarity, wrapped},
     scalar::Scalar,
-    tip_loss::TipLoss,
+    tip_loss::{Span, TipLoss},
 };
 use core::f64::consts::PI;
 
@@ -12,14 +12,15 @@ use core::f64::consts::PI;
 pub struct Element<'a> {
     /// Number of blades N.
     pub blades: f64,
-    /// Radius of the element's middle, and of the tip, m.
+    /// Radius of the element's middle, of the root and of the tip, m.
     pub radius: f64,
+    pub root_radius: f64,
     pub tip_radius: f64,
     /// m.
     pub chord: f64,
     /// Pitch of the section against the disc without cyclic pitch, rad.
     pub pitch: f64,
-    /// Share of the element that carries lift, 0 to 1 (tip loss of Gessow & Myers).
+    /// Share of the element that carries lift, 0 to 1 (tip losses that end it).
     pub lifting_share: f64,
     pub tip_loss: TipLoss,
     pub section: Section<'a>,
@@ -98,8 +99,12 @@ impl Element<'_> {
 
     /// Ratio of the mean induced velocity around the annulus to that at the blade.
     pub fn tip_loss_factor<S: Scalar>(&self, sin_inflow: S) -> S {
-        self.tip_loss
-            .factor(self.blades, self.radius_ratio(), sin_inflow)
+        let span = Span {
+            blades: self.blades,
+            radius_ratio: self.radius_ratio(),
+            cutout: self.root_radius / self.tip_radius,
+        };
+        self.tip_loss.factor(&span, sin_inflow)
     }
 
     /// Loads of the section at a pitch (rad) in a flow with the part `in_plane` against the

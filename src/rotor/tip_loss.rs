@@ -1,6 +1,6 @@
 //! Loss of lift at the blade tip.
 
-use super::scalar::Scalar;
+use super::{geometry::Geometry, scalar::Scalar};
 use core::f64::consts::FRAC_2_PI;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -9,59 +9,135 @@ pub enum TipLoss {
     /// Prandtl 1919 (appendix to Betz, "Schraubenpropeller mit geringstem Energieverlust"), with
     /// the local inflow angle as Glauert 1935 (Airplane Propellers, ch. VII, eq. 5.7) writes it.
     Prandtl,
-    /// Gessow & Myers 1952, "Aerodynamics of the Helicopter": lift ends at B = 1 - c/(2R).
-    GessowMyers,
+    /// The same at the root too, as Ning 2014 (Wind Energy 17, p. 1327) writes it.
+    PrandtlTipAndRoot,
+    /// Lift ends half a tip chord before the tip, B = 1 - c/(2R): Wheatley 1934, NACA Rep. 487, p. 5;
+    /// Gessow & Myers 1952, "Aerodynamics of the Helicopter"; thesis eq. (96).
+    HalfTipChord,
+    /// Lift ends at B = 1 - c0 (1 + 0.7 tau)/(1.5 R), c0 the root chord and tau the tip chord over it:
+    /// Sissingh 1939, as in Leishman 2006, section 3.3.10.
+    Sissingh,
+    /// Lift ends at B = 1 - sqrt(CT)/N: Prandtl 1919 for the inflow of hover, Leishman 2006, section
+    /// 3.3.10.
+    PrandtlThrust,
+}
+
+/// Where an element lies, as far as its losses are concerned.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Span {
+    pub blades: f64,
+    /// r/R of the element's middle, and of the root cutout, in (0, 1).
+    pub radius_ratio: f64,
+    pub cutout: f64,
 }
 
 impl TipLoss {
     /// Ratio of the annulus' mean induced velocity to that at the blade, 0 to 1.
     ///
     /// Prandtl: F = 2/pi acos(exp(-f)), f = (N/2) (R - r)/(r |sin phi|); thesis eq. (95) is this
-    /// with sin phi = lambda/r. `radius_ratio` is r/R in (0, 1). F = 1 where the air does not pass
-    /// through the disc (phi = 0).
-    pub fn factor<S: Scalar>(self, blades: f64, radius_ratio: f64, sin_inflow: S) -> S {
-        if self != Self::Prandtl || sin_inflow.value() == 0.0 {
-            return S::constant(1.0);
+    /// with sin phi = lambda/r. At the root f = (N/2) (r - r0)/(r0 |sin phi|), and F is the product. F = 1
+    /// where the air does not pass through the disc (phi = 0).
+    pub fn factor<S: Scalar>(self, span: &Span, sin_inflow: S) -> S {
+        let Span {
+            blades,
+            radius_ratio,
+            cutout,
+        } = *span;
+        let loss = |distance: f64| {
+            let exponent = S::constant(0.5 * blades * distance) / sin_inflow.abs();
+            (-exponent).exp().acos() * FRAC_2_PI
+        };
+        match self {
+            _ if sin_inflow.value() == 0.0 => S::constant(1.0),
+            Self::Prandtl => loss((1.0 - radius_ratio) / radius_ratio),
+            Self::PrandtlTipAndRoot => {
+                loss((1.0 - radius_ratio) / radius_ratio) * loss((radius_ratio - cutout) / cutout)
+            }
+            _ => S::constant(1.0),
         }
-        let exponent =
-            S::constant(0.5 * blades * (1.0 - radius_ratio) / radius_ratio) / sin_inflow.abs();
-        (-exponent).exp().acos() * FRAC_2_PI
     }
 
-    /// Share of a blade element's width that carries lift. Radii and chord in m.
-    ///
-    /// Gessow & Myers: thesis eq. (96); the element across BR counts in part, so that the thrust
-    /// does not jump with the number of elements. The other models give 1.
-    pub fn lifting_share(self, inner: f64, outer: f64, tip_radius: f64, tip_chord: f64) -> f64 {
-        if self != Self::GessowMyers {
-            return 1.0;
+    /// r/R at which the lift ends, where the blade's shape alone says so.
+    pub fn fixed_end(self, geometry: &Geometry) -> Option<f64> {
+        let (tip, radius) = (geometry.tip_chord, geometry.radius);
+        match self {
+            Self::HalfTipChord => Some(1.0 - 0.5 * tip / radius),
+            Self::Sissingh => {
+                let root = geometry.stations.first().map_or(tip, |s| s.chord);
+                Some(1.0 - (root + 0.7 * tip) / (1.5 * radius))
+            }
+            _ => None,
         }
-        let end = tip_radius - 0.5 * tip_chord;
-        ((end - inner) / (outer - inner)).clamp(0.0, 1.0)
+    }
+
+    /// r/R at which the lift ends, where it depends on the thrust coefficient (its magnitude).
+    pub fn end_at_thrust(self, blades: f64, thrust_coefficient: f64) -> Option<f64> {
+        (self == Self::PrandtlThrust)
+            .then(|| (1.0 - libm::sqrt(thrust_coefficient) / blades).max(0.0))
     }
 }
 
+/// Share of a blade element's width that carries lift, which ends at `end`: the element across it counts in
+/// part, so that the thrust does not jump with the number of elements. Any unit of length.
+pub fn lifting_share(inner: f64, outer: f64, end: f64) -> f64 {
+    ((end - inner) / (outer - inner)).clamp(0.0, 1.0)
+}
+
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)] // the expectations are independent of libm
 mod tests {
     use super::*;
 
+    fn at(blades: f64, radius_ratio: f64) -> Span {
+        Span {
+            blades,
+            radius_ratio,
+            cutout: 0.2,
+        }
+    }
+
     #[test]
     fn prandtl_tends_to_1_for_many_blades_and_to_0_at_the_tip() {
-        let f = |blades, r| TipLoss::Prandtl.factor::<f64>(blades, r, 0.1);
+        let f = |blades, r| TipLoss::Prandtl.factor::<f64>(&at(blades, r), 0.1);
         assert!((f(1000.0, 0.9) - 1.0).abs() < 1e-12);
         assert!(f(4.0, 1.0 - 1e-12) < 1e-5);
         assert!(f(4.0, 0.5) > f(4.0, 0.9) && f(4.0, 0.9) > f(2.0, 0.9));
         // By hand: N = 2, r = 0.9, sin phi = 0.1: f = 1.1111, F = 2/pi acos(0.329193).
         assert!((f(2.0, 0.9) - 0.786_447).abs() < 1e-5, "{}", f(2.0, 0.9));
-        assert_eq!(TipLoss::Prandtl.factor::<f64>(2.0, 0.9, 0.0), 1.0);
+        assert_eq!(TipLoss::Prandtl.factor::<f64>(&at(2.0, 0.9), 0.0), 1.0);
     }
 
     #[test]
-    fn gessow_myers_ends_the_lift_half_a_chord_before_the_tip() {
-        let share = |a, b| TipLoss::GessowMyers.lifting_share(a, b, 1.0, 0.1);
-        assert_eq!(share(0.8, 0.9), 1.0);
-        assert!((share(0.9, 1.0) - 0.5).abs() < 1e-12);
-        assert_eq!(share(0.96, 1.0), 0.0);
-        assert_eq!(TipLoss::Prandtl.lifting_share(0.96, 1.0, 1.0, 0.1), 1.0);
+    fn the_root_loses_lift_as_the_tip_does() {
+        let both = |r| TipLoss::PrandtlTipAndRoot.factor::<f64>(&at(2.0, r), 0.3);
+        let tip = |r| TipLoss::Prandtl.factor::<f64>(&at(2.0, r), 0.3);
+        assert!(both(0.2 + 1e-12) < 1e-5);
+        // By hand at r = 0.25: f = 0.25/0.3, 2/pi acos(0.434598).
+        let root = 2.0 / std::f64::consts::PI * 0.434_598_f64.acos();
+        assert!((both(0.25) / tip(0.25) - root).abs() < 1e-5);
+        assert!((both(0.95) / tip(0.95) - 1.0).abs() < 1e-3);
+    }
+
+    /// By hand: c0 = 0.2 m, tip 0.1 m, R = 2 m, N = 4, CT = 0.0064.
+    #[test]
+    fn lift_ends_where_the_published_formulas_say() {
+        let geometry = Geometry::linear(4, 2.0, 0.2, 0.2, 0.5, 0.0);
+        let fixed = |loss: TipLoss| loss.fixed_end(&geometry);
+        assert_eq!(fixed(TipLoss::HalfTipChord), Some(0.975));
+        let sissingh = 1.0 - 0.2 * (1.0 + 0.35) / 3.0;
+        assert!((fixed(TipLoss::Sissingh).unwrap() - sissingh).abs() < 1e-15);
+        let thrust = TipLoss::PrandtlThrust.end_at_thrust(4.0, 0.0064);
+        assert!((thrust.unwrap() - 0.98).abs() < 1e-15);
+        for loss in [TipLoss::None, TipLoss::Prandtl, TipLoss::PrandtlTipAndRoot] {
+            assert_eq!(fixed(loss), None);
+            assert_eq!(loss.end_at_thrust(4.0, 0.0064), None);
+        }
+    }
+
+    #[test]
+    fn the_element_at_the_end_of_the_lift_counts_in_part() {
+        assert_eq!(lifting_share(0.8, 0.9, 0.95), 1.0);
+        assert!((lifting_share(0.9, 1.0, 0.95) - 0.5).abs() < 1e-12);
+        assert_eq!(lifting_share(0.96, 1.0, 0.95), 0.0);
     }
 }

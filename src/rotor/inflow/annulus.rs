@@ -49,13 +49,14 @@
 //! ```
 //!
 //! which is the equation above times cos(phi - phi0) where all azimuths are alike. The lift is
-//! projected on the direction of the induced velocity, and so is the momentum. On the far side
+//! projected on the direction of the induced velocity, and so is the momentum. Blades by themselves
+//! take the place of the azimuths: the balance then holds at each instant. On the far side
 //! of the bracket the mean flow W vanishes; where strong flow along a slow disc leaves the sign
 //! of R unchanged even there, that end is taken: the rotor then brings its own air to rest.
 
 use super::Induced;
 use crate::rotor::{
-    disc::{Azimuth, DiscFlow},
+    disc::{DiscFlow, Place},
     element::Element,
     root::{End, RootError, bracketed},
     scalar::Scalar,
@@ -90,11 +91,11 @@ fn axial_residual<S: Scalar>(element: &Element, undisturbed: Undisturbed, inflow
     factor * sin_inflow.abs() * induced_angle.sin() * 4.0 - lift * across * element.solidity()
 }
 
-/// The residual R(phi) of the mean over azimuths, dimensionless.
+/// The residual R(phi) of the mean over places, dimensionless.
 fn mean_residual(
     element: &Element,
     flow: &DiscFlow,
-    azimuths: &[Azimuth],
+    places: &[Place],
     undisturbed: Undisturbed,
     inflow_angle: f64,
 ) -> f64 {
@@ -103,20 +104,22 @@ fn mean_residual(
     let (sin_inflow, cos_inflow) = (Scalar::sin(inflow_angle), Scalar::cos(inflow_angle));
     let speed = undisturbed.speed;
     let mut lift = 0.0;
-    for azimuth in azimuths {
-        let meets = flow.meets(element.radius, *azimuth);
+    for place in places {
+        let meets = flow.meets(element.radius, place);
         let (in_plane, through) = (
             meets.in_plane - induced.swirl,
-            meets.through + induced.axial,
+            meets.through + meets.flap_cos * induced.axial,
         );
         let square = in_plane * in_plane + through * through;
         let local_speed = libm::sqrt(square);
-        let alpha = element.pitch + meets.cyclic - libm::atan2(through, in_plane);
-        // W_psi^2 cos(phi_psi - phi) = W_psi (W_psi cos phi_psi cos phi + W_psi sin phi_psi sin phi)
-        let projected = local_speed * (in_plane * cos_inflow + through * sin_inflow);
+        let alpha = element.pitch + meets.pitch - libm::atan2(through, in_plane);
+        // W_psi^2 cos(phi_psi - phi) = W_psi (W_psi cos phi_psi cos phi + W_psi sin phi_psi sin phi),
+        // of which the first stands on the flapping blade.
+        let axial = meets.flap_cos * in_plane * cos_inflow;
+        let projected = local_speed * (axial + through * sin_inflow);
         lift += element.lift_coefficient(alpha, local_speed) * projected;
     }
-    lift /= azimuths.len() as f64 * speed * speed;
+    lift /= places.len() as f64 * speed * speed;
     let resultant = libm::hypot(flow.edgewise, mean_through) / speed;
     let induced_part = Scalar::sin(inflow_angle - undisturbed.angle);
     4.0 * element.tip_loss_factor(sin_inflow) * resultant * induced_part - element.solidity() * lift
@@ -131,14 +134,10 @@ fn induced(undisturbed: Undisturbed, inflow_angle: f64) -> Induced {
     }
 }
 
-/// What an element's annulus induces in a flow, averaged over `azimuths`.
+/// What an element's annulus induces in a flow, averaged over `places`.
 ///
 /// Fails only if the airfoil's or the flow's numbers are not finite, or so large that they overflow.
-pub fn solve(
-    element: &Element,
-    flow: &DiscFlow,
-    azimuths: &[Azimuth],
-) -> Result<Answer, RootError> {
+pub fn solve(element: &Element, flow: &DiscFlow, places: &[Place]) -> Result<Answer, RootError> {
     let rotation = flow.rotation * element.radius;
     let undisturbed = Undisturbed {
         speed: libm::hypot(rotation, flow.climb),
@@ -147,7 +146,11 @@ pub fn solve(
     if undisturbed.speed == 0.0 {
         return Ok(Answer::default());
     }
-    let inflow_angle = if flow.is_axisymmetric() {
+    let is_flat = |place: &Place| place.flap_sin == 0.0;
+    let inflow_angle = if let [place] = places
+        && is_flat(place)
+        && flow.is_axisymmetric()
+    {
         // At phi0 nothing is induced, and R is the lift alone.
         let lift = element.lift_coefficient(element.pitch - undisturbed.angle, undisturbed.speed);
         let start = End {
@@ -158,7 +161,7 @@ pub fn solve(
             axial_residual(element, undisturbed, phi)
         })?
     } else {
-        let equation = |phi: f64| mean_residual(element, flow, azimuths, undisturbed, phi);
+        let equation = |phi: f64| mean_residual(element, flow, places, undisturbed, phi);
         let start = End {
             at: undisturbed.angle,
             residual: equation(undisturbed.angle),
@@ -240,6 +243,7 @@ mod tests {
         Element {
             blades: 3.0,
             radius: 0.8,
+            root_radius: 0.1,
             tip_radius: 1.0,
             chord,
             pitch,
@@ -295,7 +299,8 @@ mod tests {
                     climb,
                     ..DiscFlow::default()
                 };
-                let answer = solve(&element, &flow, &[]).unwrap();
+                let anywhere = Place::new(Default::default(), Default::default(), 0.0);
+                let answer = solve(&element, &flow, &[anywhere]).unwrap();
                 let is_windmill = climb + answer.induced.axial < -1e-6;
                 changes += u32::from(is_windmill != was_windmill);
                 was_windmill = is_windmill;

@@ -2,7 +2,9 @@
 
 pub mod annulus;
 pub mod closed_form;
+pub mod finite_blades;
 pub mod linear;
+pub mod peters_he;
 pub mod pitt_peters;
 pub mod uniform;
 
@@ -19,8 +21,12 @@ pub enum Inflow {
     AnnulusClosedForm,
     /// Glauert's momentum theory for the disc as a whole, with a distribution over it.
     Disc(Skew),
+    /// Each blade sweeps its own air: Knight & Hefner, Dahl.
+    FiniteBlades,
     /// Pitt & Peters' three states, which take time to build up.
     PittPetersDynamic,
+    /// Peters & He's states, to a power of the radius of 1 to 6.
+    PetersHe { order: usize },
 }
 
 /// Velocity induced at a blade, m/s.

@@ -1,0 +1,149 @@
+//! Flapping of rigid blades about their hinges.
+//!
+//! The blade beyond the hinge at the radius h is a uniform rod, so that its moment of inertia I about the
+//! hinge gives its other moments: with the length l = R - h, the first moment S = 3/2 I/l and the mass m =
+//! 3 I/l^2. Newton's law for its turn about the hinge (Johnson 1980, "Helicopter Theory", ch. 5.2 and
+//! 5.20, here without small angles), with n, X and Z of `disc`, w = (w_r, w_t, W) the angular velocity of
+//! the blade's frame, W the rotor's speed against the air and Omega that against the hub:
+//!
+//! ```text
+//! I beta'' = M - k (beta - beta_p) + S n.g + w_t' (I + h S cos beta)
+//!            - (W cos beta - w_r sin beta) (h S w_r + I (w_r cos beta + W sin beta))
+//!            - h S sin beta (w_r^2 + w_t^2 + W^2),        w_t' = -Omega w_r
+//! ```
+//!
+//! M is the moment of the air, k the spring, which pulls towards the precone beta_p. For small angles and a
+//! hub at rest the frequency is Omega sqrt(1 + h S/I + k/(I Omega^2)), h S/I = 3/2 e/(1 - e).
+//!
+//! Assumptions. The hub's velocity and angular velocity change slowly enough that their derivatives push no
+//! blade. The hub feels each blade through its spring and, at the offset, through what the air and the
+//! blade's inertia pull up there; in the disc it feels the air alone, because inertia forces there cancel
+//! over a turn. The weight of the blades belongs to the vehicle's.
+
+use super::{
+    Operation,
+    disc::{DiscFlow, Place},
+};
+use core::f64::consts::PI;
+use nalgebra::Vector3;
+
+/// How one blade flaps: angle above the plane perpendicular to the shaft, rad, and its rate, rad/s.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Flap {
+    pub angle: f64,
+    pub rate: f64,
+}
+
+/// How the blades are held. Blades that do not flap are rigid at the precone angle.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Hinge {
+    /// m, from the shaft.
+    pub offset: f64,
+    /// Angle at which the spring is at rest, rad.
+    pub precone: f64,
+    pub freedom: Option<Freedom>,
+}
+
+/// A blade that flaps.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Freedom {
+    /// Of one blade about its hinge, kg.m2.
+    pub inertia: f64,
+    /// Tangent of delta3: the pitch falls by this times the flap angle above the precone.
+    pub pitch_flap: f64,
+    /// Length of the blade beyond the hinge, m.
+    pub length: f64,
+}
+
+/// What acts on a blade besides its own motion.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Action {
+    /// Moment of the air about the hinge, up, N.m.
+    pub moment: f64,
+    /// N.m/rad.
+    pub spring: f64,
+    /// Acceleration of gravity in the axes of the disc's flow, m/s2.
+    pub gravity: Vector3<f64>,
+}
+
+impl Freedom {
+    /// First moment about the hinge, kg.m.
+    fn first_moment(&self) -> f64 {
+        1.5 * self.inertia / self.length
+    }
+
+    fn mass(&self) -> f64 {
+        3.0 * self.inertia / (self.length * self.length)
+    }
+
+    /// beta'' of a blade, rad/s2.
+    pub fn acceleration(
+        &self,
+        hinge: &Hinge,
+        flow: &DiscFlow,
+        place: &Place,
+        action: &Action,
+    ) -> f64 {
+        let (sin, cos) = (place.flap_sin, place.flap_cos);
+        let (radial, tangential) = flow.hub_rates(place.azimuth);
+        let rotation = flow.rotation;
+        let first = self.first_moment();
+        let offset_moment = hinge.offset * first;
+        let outwards = -action.gravity.x * place.azimuth.cos - action.gravity.y * place.azimuth.sin;
+        let weight = first * (cos * action.gravity.z - sin * outwards);
+        let spring = action.spring * (place.flap.angle - hinge.precone);
+        let turning = -flow.speed * radial * (self.inertia + offset_moment * cos);
+        let across = (rotation * cos - radial * sin)
+            * (offset_moment * radial + self.inertia * (radial * cos + rotation * sin));
+        let centrifugal =
+            offset_moment * sin * (radial * radial + tangential * tangential + rotation * rotation);
+        (action.moment - spring + weight + turning - across - centrifugal) / self.inertia
+    }
+
+    /// By how much the moment that the blade hands to the hub about -e_t (up) exceeds that of the air
+    /// about the hub's centre, N.m: k (beta - beta_p) - M - h integral of a_z dm.
+    pub fn hub_moment_excess(
+        &self,
+        hinge: &Hinge,
+        flow: &DiscFlow,
+        place: &Place,
+        action: &Action,
+    ) -> f64 {
+        let (sin, cos) = (place.flap_sin, place.flap_cos);
+        let (radial, tangential) = flow.hub_rates(place.azimuth);
+        let rate = place.flap.rate;
+        let first = self.first_moment();
+        let spring = action.spring * (place.flap.angle - hinge.precone);
+        if hinge.offset == 0.0 {
+            return spring - action.moment;
+        }
+        let acceleration = self.acceleration(hinge, flow, place, action);
+        // beta'' and beta'^2, Coriolis, w' x r, and w x (w x r), summed over the blade's mass.
+        let out = hinge.offset * self.mass() + first * cos;
+        let up = first * sin;
+        let inertia = first * (cos * acceleration - sin * rate * rate)
+            + 2.0 * tangential * rate * up
+            + (flow.speed + flow.rotation) * radial * out
+            - up * (radial * radial + tangential * tangential);
+        spring - action.moment - hinge.offset * inertia
+    }
+
+    /// An estimate of how fast a blade swings and comes to rest, 1/s, with a lift slope of 2 pi: `chord` (m)
+    /// the largest of the blade, `speed` (m/s) that of the air at its tip.
+    pub fn fastest_rate(
+        &self,
+        hinge: &Hinge,
+        operation: &Operation,
+        flow: &DiscFlow,
+        chord: f64,
+        speed: f64,
+    ) -> f64 {
+        let first = self.first_moment();
+        let per_speed = PI * operation.air.density * speed * chord * self.length * self.length;
+        let stiffness = operation.hinge_spring
+            + flow.rotation * flow.rotation * (self.inertia + hinge.offset * first)
+            + operation.gravity.norm() * first
+            + self.pitch_flap.abs() * per_speed * speed / 2.0;
+        libm::sqrt(stiffness / self.inertia) + per_speed * self.length / 3.0 / self.inertia
+    }
+}

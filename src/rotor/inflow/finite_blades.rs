@@ -1,0 +1,50 @@
+//! Momentum theory for each blade by itself: Dahl 2015 after Knight & Hefner 1937 (NACA TN 626); thesis
+//! section 3.3.1.
+//!
+//! In the time T_rev that a blade takes to where the next one was, T_rev = 2 pi/(N Omega), its element of
+//! the width l meets the air of an area l U_T T_rev, which passes the disc at V + v and takes up twice v. So
+//! the lift L of the element is L = 2 rho l U_T T_rev (V + v) v, of which the thesis' formula is the root
+//!
+//! ```text
+//! v = (-l rho T_rev U_T V + sqrt(2 l rho T_rev U_T L + (l rho T_rev U_T V)^2))/(2 l rho T_rev U_T)
+//! ```
+//!
+//! (its L and signs are lost in the copy at hand). There L was the lift without v; here it is that in v,
+//! which makes the equation implicit. V is U_P, what passes the blade without v, in which each blade
+//! has its own. With L = 1/2 rho W c cl U_T (the part of the lift along the shaft, U_T = W cos phi) U_T
+//! cancels, so that the reversed flow's edge is no special case, and with Prandtl's F and v's direction
+//! free
+//!
+//! ```text
+//! 2 v |U_P + v| = N Omega c W cl sign(U_T)/(4 pi F).
+//! ```
+//!
+//! In hover this is the annulus' momentum without swirl. A rotor at rest induces nothing.
+
+use super::uniform;
+use crate::rotor::{disc::Encounter, element::Element, root::RootError};
+
+/// The velocity that a blade's element induces, along the blade's normal, m/s.
+///
+/// `rotation`: rotor speed against the air, rad/s.
+pub fn velocity(element: &Element, meets: &Encounter, rotation: f64) -> Result<f64, RootError> {
+    let scale = libm::hypot(meets.in_plane, meets.through);
+    if scale == 0.0 {
+        return Ok(0.0);
+    }
+    let pitch = element.pitch + meets.pitch;
+    let forward = if meets.in_plane < 0.0 { -1.0 } else { 1.0 };
+    let factor =
+        element.blades * rotation.abs() * element.chord * forward / (4.0 * core::f64::consts::PI);
+    let momentum = |v: f64| {
+        let through = meets.through + v;
+        let speed = libm::hypot(meets.in_plane, through);
+        if speed == 0.0 {
+            return 0.0;
+        }
+        let alpha = pitch - libm::atan2(through, meets.in_plane);
+        let lift = element.lift_coefficient(alpha, speed);
+        factor * speed * lift / element.tip_loss_factor(through / speed)
+    };
+    uniform::mean_velocity(0.0, meets.through, scale, momentum)
+}

@@ -1,0 +1,67 @@
+//! Newton's method for some equations in as many unknowns.
+
+use nalgebra::{DMatrix, DVector};
+
+/// Most matrices of slopes.
+const MATRICES: usize = 30;
+/// Most steps with a matrix before it is made anew.
+const STEPS: usize = 8;
+/// Most halvings of a step that does not come closer.
+const HALVINGS: u32 = 10;
+/// Difference for the slopes.
+const SMALL: f64 = 1e-7;
+
+/// Where `residual` is 0, from `start`; none if that is not found within the method's bounds. All unknowns and
+/// residuals are of order 1.
+///
+/// The slopes are differences; from step to step they are corrected by Broyden's formula (1965, Math. Comp. 19,
+/// p. 577) as long as that comes closer by much. Steps that do not come closer are halved. Ends where
+/// a whole step is smaller than `tolerance`.
+pub fn solve<E>(
+    start: DVector<f64>,
+    tolerance: f64,
+    mut residual: impl FnMut(&DVector<f64>) -> Result<DVector<f64>, E>,
+) -> Result<Option<DVector<f64>>, E> {
+    let count = start.len();
+    let mut at = start;
+    let mut value = residual(&at)?;
+    for _ in 0..MATRICES {
+        if !value.norm().is_finite() {
+            return Ok(None);
+        }
+        let mut slopes = DMatrix::zeros(count, count);
+        for i in 0..count {
+            let mut other = at.clone();
+            other[i] += SMALL;
+            slopes.set_column(i, &((residual(&other)? - &value) / SMALL));
+        }
+        for _ in 0..STEPS {
+            let Some(step) = slopes.clone().lu().solve(&-&value) else {
+                return Ok(None);
+            };
+            let before = value.norm();
+            let mut part = 1.0;
+            let mut next = (&at + &step, DVector::zeros(0));
+            for halving in 0..=HALVINGS {
+                next.0 = &at + &step * part;
+                next.1 = residual(&next.0)?;
+                if next.1.norm() < before || halving == HALVINGS {
+                    break;
+                }
+                part *= 0.5;
+            }
+            let moved = &step * part;
+            let change = &next.1 - &value;
+            slopes +=
+                (change - &slopes * &moved) * moved.transpose() / moved.norm_squared().max(1e-300);
+            (at, value) = next;
+            if step.norm() <= tolerance && part == 1.0 {
+                return Ok(Some(at));
+            }
+            if value.norm() > 0.2 * before {
+                break;
+            }
+        }
+    }
+    Ok(None)
+}

@@ -1,0 +1,132 @@
+//! How the states of the rotor change in time, and one step of it.
+
+use super::{
+    Operation, Rotor, SolveError, State,
+    disc::DiscFlow,
+    inflow::{
+        Inflow,
+        pitt_peters::{Loading, Stream},
+    },
+};
+use core::f64::consts::PI;
+
+/// Largest product of a step and the states' fastest rate; `step` is stable to 1.7 for undamped motion and
+/// 2.5 for damped.
+const LARGEST_PRODUCT: f64 = 1.0;
+
+impl Rotor {
+    /// Whether anything but the azimuth changes in time by itself.
+    pub fn has_memory(&self) -> bool {
+        self.models.hinge.freedom.is_some() || self.inflow_states() > 0
+    }
+
+    /// Number of the states of the inflow.
+    pub(super) fn inflow_states(&self) -> usize {
+        match (&self.models.inflow, &self.peters_he) {
+            (Inflow::PittPetersDynamic, _) => 3,
+            (_, Some(wake)) => wake.len(),
+            _ => 0,
+        }
+    }
+
+    /// How fast the states change, per second.
+    pub fn rates(&mut self, operation: &Operation, state: &State) -> Result<State, SolveError> {
+        let mut rates = State {
+            azimuth: operation.speed,
+            ..State::default()
+        };
+        if !self.has_memory() {
+            return Ok(rates);
+        }
+        let scene = self.scene(operation, state);
+        let sums = self.fly(&scene, operation, state)?;
+        let stream = self.stream(&scene.flow);
+        match (&self.models.inflow, &self.peters_he) {
+            (Inflow::PittPetersDynamic, _) => {
+                let radius = self.geometry.radius;
+                let density_area = operation.air.density * PI * radius * radius;
+                let loading = Loading {
+                    thrust: sums.force.z / density_area,
+                    cosine: sums.moment.y / (radius * density_area),
+                    sine: -sums.moment.x / (radius * density_area),
+                };
+                let field = scene.axes.field_into_wind(&state.field());
+                let rate = stream.rate(&field, &loading);
+                rates.set_field(&scene.axes.field_out_of_wind(&rate));
+            }
+            (_, Some(wake)) => {
+                let (cos, sin) = (scene.axes.cos, scene.axes.sin);
+                let states = wake.rotated(&state.inflow, cos, sin);
+                let mut in_wind = [0.0; super::state::MOST_INFLOW_STATES];
+                wake.rate(&states, &sums.loading, &stream, &mut in_wind);
+                rates.inflow = wake.rotated(&in_wind, cos, -sin);
+            }
+            _ => {}
+        }
+        if let Some(freedom) = &self.models.hinge.freedom {
+            let blades = rates.flaps.iter_mut().zip(scene.places.iter());
+            for ((rate, place), moment) in blades.zip(sums.hinge_moments) {
+                let action = self.action(operation, &scene, moment);
+                rate.angle = place.flap.rate;
+                rate.rate = freedom.acceleration(&self.models.hinge, &scene.flow, place, &action);
+            }
+        }
+        Ok(rates)
+    }
+
+    /// Number of equal steps that makes a stretch of `duration` s stable.
+    pub fn steps(&self, operation: &Operation, state: &State, duration: f64) -> f64 {
+        let fastest = self.fastest_rate(operation, state);
+        libm::ceil((duration * fastest / LARGEST_PRODUCT).max(1.0))
+    }
+
+    /// The state one step of `duration` s later, by Heun's method of order 3 (Heun 1900, Z. Math. Phys. 45,
+    /// p. 23).
+    pub fn step(
+        &mut self,
+        operation: &Operation,
+        state: &State,
+        duration: f64,
+    ) -> Result<State, SolveError> {
+        let first = self.rates(operation, state)?;
+        let at_third = state.plus(duration / 3.0, &first);
+        let second = self.rates(operation, &at_third)?;
+        let at_two_thirds = state.plus(duration * 2.0 / 3.0, &second);
+        let third = self.rates(operation, &at_two_thirds)?;
+        Ok(state
+            .plus(0.25 * duration, &first)
+            .plus(0.75 * duration, &third))
+    }
+
+    /// An estimate of how fast the states move towards where they belong, 1/s: inflow, and flapping with the
+    /// blades' lift as damper and, with delta3, as spring.
+    fn fastest_rate(&self, operation: &Operation, state: &State) -> f64 {
+        let flow = self.scene(operation, state).flow;
+        let radius = self.geometry.radius;
+        let chords = self.geometry.stations.iter().map(|s| s.chord);
+        let chord = chords.fold(0.0, f64::max);
+        let solidity = f64::from(self.geometry.blades) * chord / (PI * radius);
+        let tip_speed = flow.rotation.abs() * radius;
+        let stream = self.stream(&flow);
+        let inflow = match (&self.models.inflow, &self.peters_he) {
+            (Inflow::PittPetersDynamic, _) => {
+                stream.fastest_rate(state.inflow[0], solidity, tip_speed)
+            }
+            (_, Some(wake)) => wake.fastest_rate(&state.inflow, solidity, tip_speed, &stream),
+            _ => 0.0,
+        };
+        let flapping = self.models.hinge.freedom.map_or(0.0, |freedom| {
+            let speed = tip_speed + flow.edgewise + flow.climb.abs();
+            freedom.fastest_rate(&self.models.hinge, operation, &flow, chord, speed)
+        });
+        inflow + flapping
+    }
+
+    fn stream(&self, flow: &DiscFlow) -> Stream {
+        Stream {
+            edgewise: flow.edgewise,
+            climb: flow.climb,
+            radius: self.geometry.radius,
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! What a rotor remembers: the azimuth, its inflow and the flapping of its blades.
+
+use super::{
+    flapping::Flap,
+    inflow::{Field, peters_he},
+};
+
+/// Most blades that can flap.
+pub const MOST_FLAPPING_BLADES: usize = 8;
+
+/// Most states that an inflow model has.
+pub const MOST_INFLOW_STATES: usize = peters_he::MOST_STATES;
+
+/// The states of a rotor, or how fast they change. What the models do not use stays 0.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct State {
+    /// Of blade 1 from the tail in the turning sense, rad; it counts on over the turns. Blade k is k - 1
+    /// steps of 2 pi/N ahead.
+    pub azimuth: f64,
+    /// m/s, in the axes of the hub (mirrored for a clockwise rotor).
+    pub inflow: [f64; MOST_INFLOW_STATES],
+    pub flaps: [Flap; MOST_FLAPPING_BLADES],
+}
+
+impl State {
+    /// `self + factor * rates`.
+    pub fn plus(&self, factor: f64, rates: &Self) -> Self {
+        let mut sum = *self;
+        sum.azimuth += factor * rates.azimuth;
+        for (value, rate) in sum.inflow.iter_mut().zip(&rates.inflow) {
+            *value += factor * rate;
+        }
+        for (flap, rate) in sum.flaps.iter_mut().zip(&rates.flaps) {
+            flap.angle += factor * rate.angle;
+            flap.rate += factor * rate.rate;
+        }
+        sum
+    }
+
+    /// The first three states of the inflow as a linear distribution.
+    pub fn field(&self) -> Field {
+        let [mean, cosine, sine, ..] = self.inflow;
+        Field { mean, cosine, sine }
+    }
+
+    pub fn set_field(&mut self, field: &Field) {
+        self.inflow[..3].copy_from_slice(&field.to_array());
+    }
+}
