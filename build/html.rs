@@ -73,7 +73,7 @@ fn default(table: &Table, v: &Variable) -> String {
             None | Some("") => "(empty)".to_owned(),
             Some(text) => format!("<code>{}</code>", escape(text)),
         },
-        (Some(start), Base::Integer) => match start.as_str() {
+        (Some(start), Base::Integer | Base::Boolean) => match start.as_str() {
             Some(choice) => format!("<code>{choice}</code>"),
             None => start.to_string(),
         },

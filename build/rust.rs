@@ -30,6 +30,7 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
     for (base, module, array, rust_type) in [
         (Base::Real, "real", "REALS", "f64"),
         (Base::Integer, "integer", "INTEGERS", "i32"),
+        (Base::Boolean, "boolean", "BOOLEANS", "bool"),
         (Base::String, "string", "STRINGS", "&str"),
     ] {
         let variables: Vec<&Variable> = table.of_base(base).collect();
@@ -97,6 +98,15 @@ fn row(table: &Table, v: &Variable) -> String {
             v.min
                 .map_or("f64::NEG_INFINITY".into(), |x| format!("{x:?}")),
             v.max.map_or("f64::INFINITY".into(), |x| format!("{x:?}")),
+        ),
+        Base::Boolean => (
+            v.start
+                .as_ref()
+                .and_then(|s| s.as_bool())
+                .unwrap_or(false)
+                .to_string(),
+            "false".into(),
+            "true".into(),
         ),
         Base::String => (
             format!(

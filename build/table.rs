@@ -109,6 +109,7 @@ pub struct DisplayUnit {
 pub enum Base {
     Real,
     Integer,
+    Boolean,
     String,
 }
 
@@ -184,6 +185,7 @@ impl Table {
             (_, None) => true,
             ("Real", Some(s)) => s.is_float(),
             ("Integer", Some(s)) => s.is_integer(),
+            ("Boolean", Some(s)) => s.is_bool(),
             ("String", Some(s)) => s.is_str(),
             _ => self.enumeration_start(v).is_some(),
         };
@@ -218,7 +220,7 @@ impl Table {
         if !["continuous", "discrete", "fixed", "tunable"].contains(&v.variability()) {
             return Err(format!("variability {:?} is not known", v.variability()));
         }
-        let known = ["Real", "Integer", "String"].contains(&v.kind.as_str());
+        let known = ["Real", "Integer", "Boolean", "String"].contains(&v.kind.as_str());
         if !known && self.enumeration(&v.kind).is_none() {
             return Err(format!(
                 "type {:?} is neither a base type nor an enumeration",
@@ -252,6 +254,7 @@ impl Variable {
     pub fn base(&self) -> Base {
         match self.kind.as_str() {
             "Real" => Base::Real,
+            "Boolean" => Base::Boolean,
             "String" => Base::String,
             _ => Base::Integer,
         }

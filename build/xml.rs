@@ -219,6 +219,7 @@ fn start_text(table: &Table, v: &Variable) -> Option<String> {
     let start = v.start.as_ref()?;
     Some(match v.base() {
         Base::Real => number(start.as_float()?),
+        Base::Boolean => start.as_bool()?.to_string(),
         Base::String => start.as_str()?.to_owned(),
         Base::Integer => match table.enumeration_start(v) {
             Some(item) => item.to_string(),

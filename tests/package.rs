@@ -63,7 +63,13 @@ fn the_archive_holds_what_an_importer_and_a_reader_expect() {
         assert!(!name.starts_with("./") && !name.contains('\\'), "{name}");
     }
     let page = String::from_utf8(files["documentation/index.html"].clone()).unwrap();
-    for name in ["collective", "geometry.file", "hubMoment[3]", "karmanTsien"] {
+    for name in [
+        "collective",
+        "geometry.file",
+        "hubMoment[3]",
+        "karmanTsien",
+        "<code>flapping.enabled</code></td><td>Boolean</td><td>false</td>",
+    ] {
         assert!(page.contains(name), "the page has no {name}");
     }
     assert!(!page.contains("<!--"), "a place in the page was left empty");

@@ -93,6 +93,13 @@ impl RotorBlock {
         Ok(())
     }
 
+    /// Sets Boolean variables, 0 being false and 1 true: all, or none if one is refused.
+    pub fn set_booleans(&mut self, references: &[u32], values: &[i32]) -> Result<(), ValueError> {
+        self.values.set_booleans(self.stage, references, values)?;
+        self.invalidate(self.stage == Stage::Configuring);
+        Ok(())
+    }
+
     /// Sets String variables: all, or none if one is refused.
     pub fn set_strings(&mut self, references: &[u32], values: &[&str]) -> Result<(), ValueError> {
         self.values.set_strings(self.stage, references, values)?;

@@ -1,7 +1,7 @@
 //! The values of all variables, and the rules under which they may be set.
 
 use super::shown::shown;
-use super::variables::{Causality, INTEGERS, REALS, STRINGS, Variable};
+use super::variables::{BOOLEANS, Causality, INTEGERS, REALS, STRINGS, Variable};
 use thiserror::Error;
 
 /// Why a value was not read or set; nothing has changed then.
@@ -56,6 +56,7 @@ pub enum Stage {
 pub struct Values {
     pub reals: [f64; REALS.len()],
     pub integers: [i32; INTEGERS.len()],
+    pub booleans: [bool; BOOLEANS.len()],
     pub strings: [String; STRINGS.len()],
 }
 
@@ -64,6 +65,7 @@ impl Default for Values {
         Self {
             reals: REALS.map(|v| v.start),
             integers: INTEGERS.map(|v| v.start),
+            booleans: BOOLEANS.map(|v| v.start),
             strings: STRINGS.map(|v| v.start.to_owned()),
         }
     }
@@ -86,16 +88,16 @@ fn find<T>(
 }
 
 /// Reads the values behind `references` into `out`.
-fn read<T, V: Clone>(
+fn read<T, V: Copy + Into<O>, O>(
     table: &'static [Variable<T>],
     kind: &'static str,
     values: &[V],
     references: &[u32],
-    out: &mut [V],
+    out: &mut [O],
 ) -> Result<(), ValueError> {
     for (reference, slot) in references.iter().zip(out) {
         let (place, _) = find(table, kind, *reference)?;
-        slot.clone_from(&values[place]);
+        *slot = values[place].into();
     }
     Ok(())
 }
@@ -131,6 +133,11 @@ impl Values {
             references,
             out,
         )
+    }
+
+    /// Reads Boolean variables, 0 being false and 1 true.
+    pub fn read_booleans(&self, references: &[u32], out: &mut [i32]) -> Result<(), ValueError> {
+        read(&BOOLEANS, "Boolean", &self.booleans, references, out)
     }
 
     /// Place of a String variable.
@@ -217,6 +224,32 @@ impl Values {
         Ok(())
     }
 
+    /// Sets all of the values, 0 being false and 1 true, or, if one is refused, none.
+    pub fn set_booleans(
+        &mut self,
+        stage: Stage,
+        references: &[u32],
+        values: &[i32],
+    ) -> Result<(), ValueError> {
+        for (reference, value) in references.iter().zip(values) {
+            let (place, variable) = find(&BOOLEANS, "Boolean", *reference)?;
+            let kept = i32::from(self.booleans[place]);
+            may_set(variable, stage, *value != kept, || kept.to_string())?;
+            if ![0, 1].contains(value) {
+                return Err(ValueError::NoChoice {
+                    name: variable.name,
+                    value: *value,
+                    choices: "0 (false), 1 (true)".to_owned(),
+                    kept,
+                });
+            }
+        }
+        for (reference, value) in references.iter().zip(values) {
+            self.booleans[*reference as usize] = *value == 1;
+        }
+        Ok(())
+    }
+
     /// Sets all of the values or, if one is refused, none.
     pub fn set_strings(
         &mut self,
@@ -238,7 +271,7 @@ impl Values {
 
 #[cfg(test)]
 mod tests {
-    use super::super::variables::{integer, real, string};
+    use super::super::variables::{boolean, integer, real, string};
     use super::*;
 
     #[test]
@@ -287,6 +320,13 @@ mod tests {
             ),
             "{error}"
         );
+        let refs = [boolean::FLAPPING__ENABLED as u32; 2];
+        let error = values.set_booleans(Stage::Configuring, &refs, &[1, 2]);
+        assert_eq!(
+            error.unwrap_err().to_string(),
+            "flapping.enabled = 2 is no choice; set one of 0 (false), 1 (true) (it keeps 0)"
+        );
+        assert_eq!(values, before);
         let error = values
             .set_reals(Stage::Configuring, &[9999], &[0.0])
             .unwrap_err();
@@ -316,6 +356,14 @@ mod tests {
         );
         let error = set(&mut values, real::THRUST, 1.0).unwrap_err();
         assert_eq!(error, ValueError::Output { name: "thrust" });
+        let place = boolean::FLAPPING__ENABLED;
+        let error = values.set_booleans(Stage::Running, &[place as u32], &[1]);
+        assert!(
+            error
+                .unwrap_err()
+                .to_string()
+                .contains("flapping.enabled is a fixed parameter and keeps 0")
+        );
         let error = values.set_strings(Stage::Running, &[string::AIRFOIL__FILE as u32], &["x"]);
         assert!(
             error

@@ -25,7 +25,7 @@ pub struct Variable<T: 'static> {
     pub unit: &'static str,
     /// Value before anything is set.
     pub start: T,
-    /// Smallest and largest value that is accepted (not used for strings).
+    /// Smallest and largest value that is accepted (not used for Booleans and strings).
     pub min: T,
     pub max: T,
     /// Names of an enumeration's values, which count from 1.

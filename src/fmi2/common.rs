@@ -3,7 +3,7 @@
 #![allow(non_snake_case)]
 
 use super::{
-    instance::{Experiment, Instance, Message, Outcome, call, refuse},
+    instance::{Experiment, Instance, Message, call, refuse},
     legality::{Function, INITIALIZATION_MODE, INSTANTIATED, STEP_COMPLETE, TERMINATED},
     logger::{Category, Logger, printable},
     types::*,
@@ -390,12 +390,17 @@ pub unsafe extern "C" fn fmi2GetInteger(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetBoolean(
     c: fmi2Component,
-    _vr: *const fmi2ValueReference,
+    vr: *const fmi2ValueReference,
     nvr: usize,
-    _value: *mut fmi2Boolean,
+    value: *mut fmi2Boolean,
 ) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller.
+        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
+        Ok(instance.block.values().read_booleans(vr, value)?)
+    };
     // SAFETY: passed on from the caller.
-    unsafe { call(c, Function::fmi2GetBoolean, |_| no_booleans(nvr)) }
+    unsafe { call(c, Function::fmi2GetBoolean, body) }
 }
 
 /// # Safety
@@ -467,12 +472,17 @@ pub unsafe extern "C" fn fmi2SetInteger(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetBoolean(
     c: fmi2Component,
-    _vr: *const fmi2ValueReference,
+    vr: *const fmi2ValueReference,
     nvr: usize,
-    _value: *const fmi2Boolean,
+    value: *const fmi2Boolean,
 ) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller.
+        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements(value, nvr, "value")?) };
+        Ok(instance.block.set_booleans(vr, value)?)
+    };
     // SAFETY: passed on from the caller.
-    unsafe { call(c, Function::fmi2SetBoolean, |_| no_booleans(nvr)) }
+    unsafe { call(c, Function::fmi2SetBoolean, body) }
 }
 
 /// # Safety
@@ -494,11 +504,4 @@ pub unsafe extern "C" fn fmi2SetString(
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2SetString, body) }
-}
-
-fn no_booleans(count: usize) -> Outcome {
-    if count == 0 {
-        return Ok(());
-    }
-    refuse("this FMU has no Boolean variables; take types and value references from modelDescription.xml".into())
 }

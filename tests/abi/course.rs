@@ -5,7 +5,7 @@ use crate::support::{
     c::{self, Status},
     instance::{bits, reference},
 };
-use helicopter_rotor::block::variables::{INTEGERS, REALS, STRINGS};
+use helicopter_rotor::block::variables::{BOOLEANS, INTEGERS, REALS, STRINGS};
 
 /// Something done with an instance.
 type Action = fn(&Instance) -> Status;
@@ -224,6 +224,10 @@ fn change_everything(instance: &Instance) {
         let other = if v.start == 1 { 2 } else { v.start - 1 };
         assert_eq!(instance.set_integer(v.name, other), c::OK, "{}", v.name);
     }
+    for v in &BOOLEANS {
+        let status = instance.set_boolean(v.name, i32::from(!v.start));
+        assert_eq!(status, c::OK, "{}", v.name);
+    }
     assert_eq!(
         instance.set_string("geometry.file", "knight-hefner-3.toml"),
         c::OK
@@ -244,9 +248,11 @@ fn all_values(instance: &Instance) -> (Vec<u64>, Vec<i32>, Vec<String>) {
     }
     let integers: Vec<i32> = INTEGERS.iter().map(|v| instance.integer(v.name)).collect();
     assert_eq!(integers, INTEGERS.map(|v| v.start));
+    let booleans: Vec<i32> = BOOLEANS.iter().map(|v| instance.boolean(v.name)).collect();
+    assert_eq!(booleans, BOOLEANS.map(|v| i32::from(v.start)));
     let strings: Vec<String> = STRINGS.iter().map(|v| instance.string(v.name)).collect();
     assert_eq!(strings, STRINGS.map(|v| v.start));
-    (bits(&reals), integers, strings)
+    (bits(&reals), [integers, booleans].concat(), strings)
 }
 
 #[test]

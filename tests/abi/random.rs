@@ -5,7 +5,7 @@ use crate::support::{
     Instance,
     c::{self, Reference},
 };
-use helicopter_rotor::block::variables::{INTEGERS, REALS};
+use helicopter_rotor::block::variables::{BOOLEANS, INTEGERS, REALS};
 use proptest::prelude::*;
 use std::ffi::{CString, c_int};
 
@@ -20,9 +20,11 @@ enum Call {
     Reset,
     SetReals(Vec<(Reference, f64)>),
     SetInteger(Reference, c_int),
+    SetBoolean(Reference, c_int),
     SetString(Reference, String),
     GetReals(Vec<Reference>),
     GetInteger(Reference),
+    GetBoolean(Reference),
     Log(bool, Vec<&'static str>),
 }
 
@@ -76,10 +78,13 @@ fn calls() -> impl Strategy<Value = Call> {
         8 => prop::collection::vec(setting(), 0..4).prop_map(Call::SetReals),
         2 => (references(INTEGERS.len()), prop_oneof![9 => 0..5_i32, 1 => any::<c_int>()])
             .prop_map(|(reference, value)| Call::SetInteger(reference, value)),
+        1 => (references(BOOLEANS.len()), prop_oneof![9 => 0..=1_i32, 1 => any::<c_int>()])
+            .prop_map(|(reference, value)| Call::SetBoolean(reference, value)),
         1 => (references(2), prop::sample::select(names))
             .prop_map(|(reference, name)| Call::SetString(reference, name.to_owned())),
         6 => prop::collection::vec(references(REALS.len()), 0..6).prop_map(Call::GetReals),
         1 => references(INTEGERS.len()).prop_map(Call::GetInteger),
+        1 => references(BOOLEANS.len()).prop_map(Call::GetBoolean),
         1 => (any::<bool>(), prop::sample::subsequence(categories, 0..=3))
             .prop_map(|(on, chosen)| Call::Log(on, chosen)),
     ]
@@ -114,6 +119,7 @@ fn make(instance: &Instance, call: &Call, time: &mut f64, read: &mut Vec<f64>) -
             instance.set_reals(&references, &values)
         }
         Call::SetInteger(reference, value) => instance.set_integer_at(*reference, *value),
+        Call::SetBoolean(reference, value) => instance.set_booleans(&[*reference], &[*value]),
         Call::SetString(reference, value) => {
             instance.set_string_at(*reference, &CString::new(value.as_str()).unwrap())
         }
@@ -122,6 +128,12 @@ fn make(instance: &Instance, call: &Call, time: &mut f64, read: &mut Vec<f64>) -
             instance.get_reals(references, read)
         }
         Call::GetInteger(reference) => instance.get_integer_at(*reference, &mut 0),
+        Call::GetBoolean(reference) => {
+            let mut value = 0;
+            let status = instance.get_boolean_at(*reference, &mut value);
+            assert!([0, 1].contains(&value), "{value}");
+            status
+        }
         Call::Log(on, categories) => instance.set_debug_logging(*on, categories),
     }
 }

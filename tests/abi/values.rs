@@ -2,11 +2,11 @@
 //! trace.
 
 use crate::support::{
-    Instance,
+    Fmu, Instance,
     c::{self, Reference, Status},
     instance::{bits, reference},
 };
-use helicopter_rotor::block::variables::{Causality, INTEGERS, REALS, STRINGS};
+use helicopter_rotor::block::variables::{BOOLEANS, Causality, INTEGERS, REALS, STRINGS};
 use std::ptr;
 
 /// All values of a running instance, on which a call is refused in between or not.
@@ -62,8 +62,11 @@ fn refused_at_the_start(parts: &[&str], call: impl Fn(&Instance) -> Status) {
     assert_eq!(integers(&instance), integers(&undisturbed), "{message}");
 }
 
+/// With the Booleans, which are integers in C.
 fn integers(instance: &Instance) -> Vec<i32> {
-    INTEGERS.iter().map(|v| instance.integer(v.name)).collect()
+    let integers = INTEGERS.iter().map(|v| instance.integer(v.name));
+    let booleans = BOOLEANS.iter().map(|v| instance.boolean(v.name));
+    integers.chain(booleans).collect()
 }
 
 #[test]
@@ -134,9 +137,55 @@ fn integers_and_enumerations_out_of_range_are_refused_with_the_choices() {
 }
 
 #[test]
+fn booleans_other_than_0_and_1_are_refused_with_the_choices() {
+    for v in &BOOLEANS {
+        for value in [2, -1, 256, i32::MAX, i32::MIN] {
+            let kept = format!("keeps {}", i32::from(v.start));
+            let sentence = format!("{} = {value} is no choice", v.name);
+            let parts = [sentence.as_str(), "0 (false), 1 (true)", &kept];
+            refused_at_the_start(&parts, |i| i.set_boolean(v.name, value));
+        }
+    }
+}
+
+#[test]
+fn booleans_have_the_start_values_of_the_description_and_can_be_set() {
+    let description = std::fs::read_to_string(Fmu::shared().folder.join("modelDescription.xml"));
+    let description = description.unwrap();
+    let running = Instance::running();
+    for (i, v) in BOOLEANS.iter().enumerate() {
+        let row = format!("<ScalarVariable name=\"{}\" valueReference=\"{i}\"", v.name);
+        let (_, rest) = description.split_once(&row).expect(v.name);
+        let start = match running.boolean(v.name) {
+            0 => "<Boolean start=\"false\"/>",
+            1 => "<Boolean start=\"true\"/>",
+            other => panic!("{} = {other}", v.name),
+        };
+        assert_eq!(
+            rest.lines().nth(1).map(str::trim),
+            Some(start),
+            "{}",
+            v.name
+        );
+
+        let instance = Instance::new();
+        for value in [1, 0, i32::from(!v.start)] {
+            assert_eq!(instance.set_boolean(v.name, value), c::OK, "{}", v.name);
+        }
+        instance.initialize();
+        assert_eq!(instance.boolean(v.name), i32::from(!v.start), "{}", v.name);
+    }
+}
+
+#[test]
 fn unknown_value_references_are_refused_with_the_known_ones() {
     let last = |count: usize| format!("from 0 to {}", count - 1);
-    let lasts = [last(REALS.len()), last(INTEGERS.len()), last(STRINGS.len())];
+    let lasts = [
+        last(REALS.len()),
+        last(INTEGERS.len()),
+        last(STRINGS.len()),
+        last(BOOLEANS.len()),
+    ];
     for reference in [REALS.len() as Reference, 9999, Reference::MAX] {
         let name = format!("value reference {reference}");
         let parts = |i: usize| [name.as_str(), &lasts[i], "modelDescription.xml"];
@@ -145,17 +194,9 @@ fn unknown_value_references_are_refused_with_the_known_ones() {
         refused_without_a_trace(&parts(1), |i| i.get_integer_at(reference, &mut 0));
         refused_without_a_trace(&parts(1), |i| i.set_integer_at(reference, 1));
         refused_without_a_trace(&parts(2), |i| i.set_string_at(reference, c""));
+        refused_without_a_trace(&parts(3), |i| i.get_boolean_at(reference, &mut 0));
+        refused_without_a_trace(&parts(3), |i| i.set_booleans(&[reference], &[1]));
     }
-    let boolean = |i: &Instance| {
-        // SAFETY: the pointers are valid for one element.
-        unsafe { (i.functions.fmi2GetBoolean)(i.component, &0, 1, &mut 0) }
-    };
-    refused_without_a_trace(&["fmi2GetBoolean", "no Boolean variables"], boolean);
-    let boolean = |i: &Instance| {
-        // SAFETY: the pointers are valid for one element.
-        unsafe { (i.functions.fmi2SetBoolean)(i.component, &0, 1, &1) }
-    };
-    refused_without_a_trace(&["fmi2SetBoolean", "no Boolean variables"], boolean);
 }
 
 #[test]
@@ -164,6 +205,9 @@ fn of_several_values_all_or_none_are_set() {
     let references = names.map(|name| reference(&REALS, name));
     let set = |values: [f64; 3]| move |i: &Instance| i.set_reals(&references, &values);
     refused_without_a_trace(&["rpm = -1"], set([0.3, 0.1, -1.0]));
+    refused_at_the_start(&["flapping.enabled = 2"], |i| {
+        i.set_booleans(&[reference(&BOOLEANS, "flapping.enabled"); 2], &[1, 2])
+    });
     let instance = Instance::running();
     assert_eq!(set([0.3, 0.1, 500.0])(&instance), c::OK);
     assert_eq!(names.map(|name| instance.real(name)), [0.3, 0.1, 500.0]);
@@ -191,6 +235,11 @@ fn fixed_parameters_keep_their_values_once_the_simulation_runs() {
             i.set_integer(v.name, other)
         });
     }
+    for v in &BOOLEANS {
+        refused_without_a_trace(&[v.name, "fixed parameter"], |i| {
+            i.set_boolean(v.name, i32::from(!v.start))
+        });
+    }
     for v in &STRINGS {
         refused_without_a_trace(&[v.name, "fixed parameter"], |i| {
             i.set_string(v.name, "other")
@@ -206,6 +255,10 @@ fn fixed_parameters_may_be_set_to_the_values_that_they_have() {
         }
         for v in &INTEGERS {
             assert_eq!(instance.set_integer(v.name, v.start), c::OK, "{}", v.name);
+        }
+        for v in &BOOLEANS {
+            let status = instance.set_boolean(v.name, v.start.into());
+            assert_eq!(status, c::OK, "{}", v.name);
         }
         for v in &STRINGS {
             assert_eq!(instance.set_string(v.name, v.start), c::OK, "{}", v.name);
@@ -225,9 +278,11 @@ fn null_pointers_are_refused_unless_nothing_is_announced() {
             match name {
                 "fmi2GetReal" => (f.fmi2GetReal)(c, vr, count, ptr::null_mut()),
                 "fmi2GetInteger" => (f.fmi2GetInteger)(c, vr, count, ptr::null_mut()),
+                "fmi2GetBoolean" => (f.fmi2GetBoolean)(c, vr, count, ptr::null_mut()),
                 "fmi2GetString" => (f.fmi2GetString)(c, vr, count, ptr::null_mut()),
                 "fmi2SetReal" => (f.fmi2SetReal)(c, vr, count, ptr::null()),
                 "fmi2SetInteger" => (f.fmi2SetInteger)(c, vr, count, ptr::null()),
+                "fmi2SetBoolean" => (f.fmi2SetBoolean)(c, vr, count, ptr::null()),
                 _ => (f.fmi2SetString)(c, vr, count, ptr::null()),
             }
         }
@@ -235,9 +290,11 @@ fn null_pointers_are_refused_unless_nothing_is_announced() {
     for name in [
         "fmi2GetReal",
         "fmi2GetInteger",
+        "fmi2GetBoolean",
         "fmi2GetString",
         "fmi2SetReal",
         "fmi2SetInteger",
+        "fmi2SetBoolean",
         "fmi2SetString",
     ] {
         let parts = |what| [name, what];

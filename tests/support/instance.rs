@@ -4,7 +4,7 @@ use super::{
     c::{self, Callbacks, Component, Functions, Reference, Status, Text},
     fmu::{Fmu, uri},
 };
-use helicopter_rotor::block::variables::{GUID, INTEGERS, REALS, STRINGS, Variable};
+use helicopter_rotor::block::variables::{BOOLEANS, GUID, INTEGERS, REALS, STRINGS, Variable};
 use std::{
     ffi::{CStr, CString, c_int, c_void},
     ptr,
@@ -267,6 +267,17 @@ impl Instance<'_> {
         unsafe { (self.functions.fmi2SetInteger)(self.component, &reference, 1, &value) }
     }
 
+    pub fn set_boolean(&self, name: &str, value: c_int) -> Status {
+        self.set_booleans(&[reference(&BOOLEANS, name)], &[value])
+    }
+
+    pub fn set_booleans(&self, references: &[Reference], values: &[c_int]) -> Status {
+        assert_eq!(references.len(), values.len());
+        let (r, n, x) = (references.as_ptr(), values.len(), values.as_ptr());
+        // SAFETY: see above.
+        unsafe { (self.functions.fmi2SetBoolean)(self.component, r, n, x) }
+    }
+
     pub fn set_string(&self, name: &str, value: &str) -> Status {
         self.set_string_at(reference(&STRINGS, name), &CString::new(value).unwrap())
     }
@@ -295,6 +306,11 @@ impl Instance<'_> {
         unsafe { (self.functions.fmi2GetInteger)(self.component, &reference, 1, value) }
     }
 
+    pub fn get_boolean_at(&self, reference: Reference, value: &mut c_int) -> Status {
+        // SAFETY: see above.
+        unsafe { (self.functions.fmi2GetBoolean)(self.component, &reference, 1, value) }
+    }
+
     #[track_caller]
     pub fn real(&self, name: &str) -> f64 {
         let mut value = [f64::NAN];
@@ -321,6 +337,14 @@ impl Instance<'_> {
     pub fn integer(&self, name: &str) -> c_int {
         let mut value = c_int::MIN;
         let status = self.get_integer_at(reference(&INTEGERS, name), &mut value);
+        assert_eq!(status, c::OK, "{name}: {:?}", self.take_log());
+        value
+    }
+
+    #[track_caller]
+    pub fn boolean(&self, name: &str) -> c_int {
+        let mut value = c_int::MIN;
+        let status = self.get_boolean_at(reference(&BOOLEANS, name), &mut value);
         assert_eq!(status, c::OK, "{name}: {:?}", self.take_log());
         value
     }
