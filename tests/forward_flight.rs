@@ -10,10 +10,11 @@ use helicopter_rotor::{
         variables::{integer, real},
     },
     rotor::{
-        Models, Operation, Performance, Rotor,
+        Blades, Models, Operation, Performance, Rotor,
         air::Air,
         airfoil::{Airfoil, Lift, SectionModel},
         compressibility::Compressibility,
+        flapping::Hinge,
         geometry::{Geometry, Rotation},
         inflow::{Inflow, Skew},
         tip_loss::TipLoss,
@@ -45,6 +46,8 @@ fn frictionless() -> Airfoil {
 fn models(inflow: Inflow) -> Models {
     Models {
         inflow,
+        blades: Blades::Disc,
+        hinge: Hinge::default(),
         tip_loss: TipLoss::None,
         section: SectionModel {
             lift: Lift::TwoPi,
@@ -68,6 +71,8 @@ fn flight(collective: f64, airspeed: Vector3<f64>) -> Operation {
         speed: SPEED,
         airspeed,
         angular_velocity: Vector3::zeros(),
+        gravity: Vector3::zeros(),
+        hinge_spring: 0.0,
         air: Air::new(DENSITY, 288.15),
     }
 }

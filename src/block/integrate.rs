@@ -1,18 +1,18 @@
 //! Time integration of the rotor's states.
 //!
-//! Heun's method (order 2; Heun 1900, Z. Math. Phys. 45, p. 23) on a grid of azimuth that begins where
-//! the simulation does, and anew where the inputs change. A communication point between two grid
-//! points is met exactly, by a shorter step from the grid point before; the next step goes on from that
-//! grid point, not from the communication point, as long as the inputs stay the same. So constant
-//! inputs give the same answer, to the rounding of times, whatever the communication step.
+//! Steps of the rotor on a grid of azimuth that begins where the simulation does, and anew where the
+//! inputs change. A communication point between two grid points is met exactly, by a shorter step from
+//! the grid point before; the next step goes on from that grid point, not from the communication point,
+//! as long as the inputs stay the same. So constant inputs give the same answer, to the rounding of
+//! times, whatever the communication step.
 
-use crate::rotor::{Operation, Rotor, SolveError, inflow::Field};
+use crate::rotor::{Operation, Rotor, SolveError, State};
 
 /// The states, and the place on the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Memory {
     /// At present.
-    pub inflow: Field,
+    pub state: State,
     since: Option<Since>,
 }
 
@@ -20,16 +20,13 @@ pub struct Memory {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Since {
     operation: Operation,
-    inflow: Field,
+    state: State,
     /// Time from there to the present, s.
     elapsed: f64,
 }
 
 /// Longest grid cell, s, for slow rotors.
 const LONGEST_CELL: f64 = 0.02;
-
-/// Largest product of a step and the states' fastest rate: Heun's method is stable below 2.
-const LARGEST_PRODUCT: f64 = 0.5;
 
 /// Most steps within one communication step.
 const MOST_STEPS: u32 = 100_000;
@@ -43,11 +40,8 @@ const STILL_AIR: f64 = 1e-8;
 
 impl Memory {
     /// States to start from.
-    pub fn starting(inflow: Field) -> Self {
-        Self {
-            inflow,
-            ..Self::default()
-        }
+    pub fn starting(state: State) -> Self {
+        Self { state, since: None }
     }
 }
 
@@ -59,13 +53,18 @@ pub fn advance(
     duration: f64,
     azimuth_step: f64,
 ) -> Result<Memory, SolveError> {
+    if !rotor.has_memory() {
+        let mut state = memory.state;
+        state.azimuth += operation.speed * duration;
+        return Ok(Memory::starting(state));
+    }
     // Infinite for a rotor at rest.
     let cell = (azimuth_step / operation.speed).min(LONGEST_CELL);
     let mut since = match memory.since {
         Some(since) if since.operation == *operation => since,
         _ => Since {
             operation: *operation,
-            inflow: memory.inflow,
+            state: memory.state,
             elapsed: 0.0,
         },
     };
@@ -80,27 +79,26 @@ pub fn advance(
     loop {
         let reaches_grid = left >= cell * (1.0 - 1e-9);
         let part = if reaches_grid { cell } else { left };
-        let inflow = integrate(rotor, operation, &since.inflow, part, &mut steps)
-            .and_then(|inflow| inflow.ok_or(SolveError::StepTooLong(duration)))?;
+        let state = integrate(rotor, operation, &since.state, part, &mut steps)
+            .and_then(|state| state.ok_or(SolveError::StepTooLong(duration)))?;
         if !reaches_grid {
             since.elapsed = left;
             return Ok(Memory {
-                inflow,
+                state,
                 since: Some(since),
             });
         }
-        let change = inflow.plus(-1.0, &since.inflow).to_array();
-        let stands_still = change.iter().all(|c| c.abs() <= still);
-        left = if stands_still {
-            0.0
-        } else {
-            (left - part).max(0.0)
-        };
-        since.inflow = inflow;
+        left = (left - part).max(0.0);
+        let stands_still = state.largest_change(&since.state) <= still;
+        since.state = state;
+        if stands_still {
+            since.state.azimuth += operation.speed * left;
+            left = 0.0;
+        }
         since.elapsed = left;
         if left == 0.0 {
             return Ok(Memory {
-                inflow,
+                state: since.state,
                 since: Some(since),
             });
         }
@@ -112,30 +110,18 @@ pub fn advance(
 fn integrate(
     rotor: &mut Rotor,
     operation: &Operation,
-    start: &Field,
+    start: &State,
     part: f64,
     steps: &mut u32,
-) -> Result<Option<Field>, SolveError> {
-    let fastest = rotor.fastest_rate(operation, start);
-    let count = libm::ceil((part * fastest / LARGEST_PRODUCT).max(1.0));
-    if count > f64::from(MOST_STEPS - *steps) {
+) -> Result<Option<State>, SolveError> {
+    let count = rotor.steps(operation, start, part);
+    if count.is_nan() || count > f64::from(MOST_STEPS - *steps) {
         return Ok(None);
     }
     *steps += count as u32;
-    let mut inflow = *start;
+    let mut state = *start;
     for _ in 0..count as u32 {
-        inflow = heun(rotor, operation, &inflow, part / count)?;
+        state = rotor.step(operation, &state, part / count)?;
     }
-    Ok(Some(inflow))
-}
-
-fn heun(
-    rotor: &mut Rotor,
-    operation: &Operation,
-    field: &Field,
-    step: f64,
-) -> Result<Field, SolveError> {
-    let first = rotor.rate(operation, field)?;
-    let second = rotor.rate(operation, &field.plus(step, &first))?;
-    Ok(field.plus(0.5 * step, &first).plus(0.5 * step, &second))
+    Ok(Some(state))
 }

@@ -12,7 +12,10 @@ pub use location::path_from_uri;
 pub use setup::SetupError;
 pub use values::{Stage, ValueError, Values};
 
-use crate::rotor::{Operation, Performance, Rotor, SolveError, air::Air, inflow::Field};
+use crate::rotor::{
+    Operation, Performance, Rotor, SolveError, Start,
+    air::{Air, STANDARD_GRAVITY},
+};
 use core::f64::consts::{PI, SQRT_2};
 use integrate::Memory;
 use nalgebra::{Matrix3, Vector3};
@@ -136,20 +139,20 @@ impl RotorBlock {
         let memory = match self.stage {
             Stage::Running => self.memory,
             Stage::Configuring => {
+                let values = &self.values;
                 let start = setup::choice(
-                    &self.values,
+                    values,
                     integer::INITIALIZATION,
                     Initialization::from_integer,
                 )?;
-                let rotor = self.rotor()?;
-                let is_steady = rotor.has_memory() && start == Initialization::Steady;
-                let inflow = if is_steady {
-                    rotor.equilibrium(&flight.operation)
-                } else {
-                    Ok(Field::default())
+                let start = match start {
+                    Initialization::Steady => Start::Steady,
+                    Initialization::Rest => Start::Rest,
                 };
-                let inflow = inflow.map_err(|e| self.unsolved(e))?;
-                Memory::starting(inflow)
+                let azimuth_step = values.reals[real::NUMERICS__AZIMUTH_STEP];
+                let rotor = self.rotor()?;
+                let state = rotor.start(&flight.operation, start, azimuth_step);
+                Memory::starting(state.map_err(|e| self.unsolved(e))?)
             }
         };
         self.publish(&flight, memory)
@@ -158,19 +161,22 @@ impl RotorBlock {
     /// Moves on by `duration` s (> 0) with the present inputs, which are constant during it. If that
     /// fails, the states and outputs keep their values.
     pub fn step(&mut self, duration: f64) -> Result<(), BlockError> {
-        if !self.rotor()?.has_memory() {
-            return self.update();
-        }
         let flight = Flight::new(&self.values)?;
         let azimuth_step = self.values.reals[real::NUMERICS__AZIMUTH_STEP];
-        let memory = self.memory;
-        let advanced = integrate::advance(
-            self.rotor()?,
-            &flight.operation,
-            &memory,
-            duration,
-            azimuth_step,
-        );
+        let (memory, is_current) = (self.memory, self.current);
+        let rotor = self.rotor()?;
+        let advanced =
+            integrate::advance(rotor, &flight.operation, &memory, duration, azimuth_step);
+        if is_current
+            && !rotor.has_memory()
+            && !rotor.shows_blades(&flight.operation, &memory.state)
+            && let Ok(advanced) = advanced
+        {
+            // A disc that nothing changes answers the same.
+            self.memory = advanced;
+            self.values.reals[real::AZIMUTH] = advanced.state.azimuth;
+            return Ok(());
+        }
         let memory = advanced.map_err(|e| self.unsolved(e))?;
         self.publish(&flight, memory)
     }
@@ -196,15 +202,11 @@ impl RotorBlock {
     fn publish(&mut self, flight: &Flight, memory: Memory) -> Result<(), BlockError> {
         let mut reals = self.values.reals;
         let rotor = self.rotor()?;
-        let performance = if rotor.has_memory() {
-            rotor.with_inflow(&flight.operation, &memory.inflow)
-        } else {
-            rotor.steady(&flight.operation)
-        };
-        match performance {
+        match rotor.performance(&flight.operation, &memory.state) {
             Ok(performance) => write_outputs(&mut reals, rotor, &performance, flight),
             Err(error) => return Err(self.unsolved(error)),
         }
+        reals[real::AZIMUTH] = memory.state.azimuth;
         write_stations(&mut reals, rotor);
         for (variable, value) in REALS.iter().zip(reals) {
             if variable.causality.is_computed() && !value.is_finite() {
@@ -240,6 +242,8 @@ impl Flight {
             speed: reals[real::RPM] * PI / 30.0,
             airspeed: shaft.airspeed,
             angular_velocity: shaft.angular_velocity,
+            gravity: shaft.gravity,
+            hinge_spring: reals[real::FLAPPING__HINGE_SPRING],
             air: air(values)?,
         };
         Ok(Self { shaft, operation })
@@ -253,6 +257,8 @@ struct Shaft {
     airspeed: Vector3<f64>,
     /// rad/s.
     angular_velocity: Vector3<f64>,
+    /// m/s2.
+    gravity: Vector3<f64>,
 }
 
 impl Shaft {
@@ -279,6 +285,7 @@ impl Shaft {
             hub_to_ground,
             airspeed: hub_to_ground.tr_mul(&(velocity - wind)),
             angular_velocity: hub_to_ground.tr_mul(&angular_velocity),
+            gravity: hub_to_ground.tr_mul(&Vector3::new(0.0, 0.0, -STANDARD_GRAVITY)),
         }
     }
 }
@@ -359,6 +366,10 @@ fn write_outputs(reals: &mut [f64], rotor: &Rotor, performance: &Performance, fl
     let airspeed = &operation.airspeed;
     reals[real::INFLOW_RATIO] = per(airspeed.z + performance.induced_velocity, tip_speed);
     reals[real::ADVANCE_RATIO] = per(libm::hypot(airspeed.x, airspeed.y), tip_speed);
+    reals[real::ROTOR_SPEED] = reals[real::RPM];
+    reals[real::CONING] = performance.tip_path.coning;
+    reals[real::LONGITUDINAL_FLAPPING] = performance.tip_path.longitudinal;
+    reals[real::LATERAL_FLAPPING] = performance.tip_path.lateral;
     reals[real::STALLED_RADIUS] = performance.stalled_radius;
     reals[real::STALLED_FRACTION] = performance.stalled_fraction;
     reals[real::TIP_MACH] = tip_speed / air.speed_of_sound;

@@ -4,15 +4,18 @@ use super::{
     location::resolve,
     values::Values,
     variables::{
-        CompressibilityModel, InflowModel, LiftModel, Rotation, TipLossModel, integer, real, string,
+        BladesModel, CompressibilityModel, InflowModel, LiftModel, Rotation, TipLossModel, boolean,
+        integer, real, string,
     },
 };
 use crate::rotor::{
-    Models, Rotor,
+    Blades, Models, Rotor,
     airfoil::{Airfoil, AirfoilError, Lift, SectionModel},
     compressibility::Compressibility,
+    flapping::{Freedom, Hinge},
     geometry::{self, Geometry, GeometryError, RotorFileError},
     inflow::{Inflow, Skew},
+    state::MOST_FLAPPING_BLADES,
     tip_loss::TipLoss,
 };
 use std::path::Path;
@@ -33,6 +36,18 @@ pub enum SetupError {
     RotorFile { name: String, cause: RotorFileError },
     #[error("the geometry parameters make no rotor: {0}; change them or set geometry.file")]
     Geometry(GeometryError),
+    #[error(
+        "flapping.enabled = true with {blades} blades: at most {MOST_FLAPPING_BLADES} can flap; set fewer blades, or flapping.enabled to false"
+    )]
+    TooManyToFlap { blades: u32 },
+    #[error(
+        "flapping.enabled = true with model.blades = disc: a mean over a turn has no blade to flap; set model.blades to automatic or individual"
+    )]
+    DiscCannotFlap,
+    #[error(
+        "flapping.enabled = true with model.inflow = annulusClosedForm, which knows axial flow past rigid blades only; set another inflow model, or flapping.enabled to false"
+    )]
+    ClosedFormCannotFlap,
     #[error("{name} holds the value {value}, which is no choice")]
     Choice { name: &'static str, value: i32 },
 }
@@ -70,10 +85,41 @@ pub fn rotor(values: &Values, resources: &Path) -> Result<(Rotor, Vec<String>), 
     }
     // The range check of the table keeps the number of elements positive.
     let elements = values.integers[integer::NUMERICS__ELEMENTS].max(1) as usize;
-    Ok((
-        Rotor::new(geometry, airfoils, models(values)?, elements),
-        notes,
-    ))
+    let models = models(values, &geometry)?;
+    Ok((Rotor::new(geometry, airfoils, models, elements), notes))
+}
+
+/// How the blades are held, and whether they can be as the other models have it.
+fn hinge(
+    values: &Values,
+    geometry: &Geometry,
+    inflow: Inflow,
+    blades: Blades,
+) -> Result<Hinge, SetupError> {
+    let reals = &values.reals;
+    let offset = reals[real::FLAPPING__HINGE_OFFSET] * geometry.radius;
+    let freedom = values.booleans[boolean::FLAPPING__ENABLED].then(|| Freedom {
+        inertia: reals[real::FLAPPING__INERTIA],
+        pitch_flap: libm::tan(reals[real::FLAPPING__DELTA3]),
+        length: geometry.radius - offset,
+    });
+    if freedom.is_some() {
+        if geometry.blades as usize > MOST_FLAPPING_BLADES {
+            let blades = geometry.blades;
+            return Err(SetupError::TooManyToFlap { blades });
+        }
+        if blades == Blades::Disc {
+            return Err(SetupError::DiscCannotFlap);
+        }
+        if inflow == Inflow::AnnulusClosedForm {
+            return Err(SetupError::ClosedFormCannotFlap);
+        }
+    }
+    Ok(Hinge {
+        offset,
+        precone: reals[real::FLAPPING__PRECONE],
+        freedom,
+    })
 }
 
 fn shape(
@@ -108,24 +154,41 @@ fn shape(
     Ok(geometry)
 }
 
-fn models(values: &Values) -> Result<Models, SetupError> {
-    Ok(Models {
-        inflow: match choice(values, integer::MODEL__INFLOW, InflowModel::from_integer)? {
-            InflowModel::Annulus => Inflow::Annulus,
-            InflowModel::AnnulusClosedForm => Inflow::AnnulusClosedForm,
-            InflowModel::Uniform => Inflow::Disc(Skew::Uniform),
-            InflowModel::Coleman => Inflow::Disc(Skew::Coleman),
-            InflowModel::Drees => Inflow::Disc(Skew::Drees),
-            InflowModel::Payne => Inflow::Disc(Skew::Payne),
-            InflowModel::WhiteBlake => Inflow::Disc(Skew::WhiteBlake),
-            InflowModel::PittPeters => Inflow::Disc(Skew::PittPeters),
-            InflowModel::Howlett => Inflow::Disc(Skew::Howlett),
-            InflowModel::PittPetersDynamic => Inflow::PittPetersDynamic,
+fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
+    let inflow = match choice(values, integer::MODEL__INFLOW, InflowModel::from_integer)? {
+        InflowModel::Annulus => Inflow::Annulus,
+        InflowModel::AnnulusClosedForm => Inflow::AnnulusClosedForm,
+        InflowModel::Uniform => Inflow::Disc(Skew::Uniform),
+        InflowModel::Coleman => Inflow::Disc(Skew::Coleman),
+        InflowModel::Drees => Inflow::Disc(Skew::Drees),
+        InflowModel::Payne => Inflow::Disc(Skew::Payne),
+        InflowModel::WhiteBlake => Inflow::Disc(Skew::WhiteBlake),
+        InflowModel::PittPeters => Inflow::Disc(Skew::PittPeters),
+        InflowModel::Howlett => Inflow::Disc(Skew::Howlett),
+        InflowModel::GlauertHighSpeed => Inflow::Disc(Skew::GlauertHighSpeed),
+        InflowModel::FiniteBlades => Inflow::FiniteBlades,
+        InflowModel::PittPetersDynamic => Inflow::PittPetersDynamic,
+        // The range check of the table keeps the order positive.
+        InflowModel::PetersHe => Inflow::PetersHe {
+            order: values.integers[integer::NUMERICS__INFLOW_ORDER].max(1) as usize,
         },
+    };
+    let blades = match choice(values, integer::MODEL__BLADES, BladesModel::from_integer)? {
+        BladesModel::Automatic => Blades::Automatic,
+        BladesModel::Disc => Blades::Disc,
+        BladesModel::Individual => Blades::Individual,
+    };
+    Ok(Models {
+        inflow,
+        blades,
+        hinge: hinge(values, geometry, inflow, blades)?,
         tip_loss: match choice(values, integer::MODEL__TIP_LOSS, TipLossModel::from_integer)? {
             TipLossModel::None => TipLoss::None,
             TipLossModel::Prandtl => TipLoss::Prandtl,
-            TipLossModel::GessowMyers => TipLoss::GessowMyers,
+            TipLossModel::PrandtlTipAndRoot => TipLoss::PrandtlTipAndRoot,
+            TipLossModel::GessowMyers | TipLossModel::Wheatley => TipLoss::HalfTipChord,
+            TipLossModel::Sissingh => TipLoss::Sissingh,
+            TipLossModel::PrandtlThrust => TipLoss::PrandtlThrust,
         },
         section: SectionModel {
             lift: match choice(values, integer::MODEL__LIFT, LiftModel::from_integer)? {

@@ -4,6 +4,9 @@
 const GAS_CONSTANT: f64 = 287.052_87;
 const HEAT_RATIO: f64 = 1.4;
 
+/// Acceleration of gravity, m/s2 (ISO 2533:1975).
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
+
 /// The state of the air around the rotor. SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Air {
@@ -33,7 +36,6 @@ impl Air {
     /// geopotential altitude, above it the layer of constant temperature.
     pub fn standard(altitude: f64) -> Self {
         const EARTH_RADIUS: f64 = 6_356_766.0;
-        const GRAVITY: f64 = 9.806_65;
         const SEA_LEVEL_TEMPERATURE: f64 = 288.15;
         const SEA_LEVEL_PRESSURE: f64 = 101_325.0;
         const LAPSE_RATE: f64 = 0.0065;
@@ -45,10 +47,10 @@ impl Air {
         let mut pressure = SEA_LEVEL_PRESSURE
             * libm::pow(
                 temperature / SEA_LEVEL_TEMPERATURE,
-                GRAVITY / (GAS_CONSTANT * LAPSE_RATE),
+                STANDARD_GRAVITY / (GAS_CONSTANT * LAPSE_RATE),
             );
         if geopotential > TROPOPAUSE {
-            let scale_height = GAS_CONSTANT * temperature / GRAVITY;
+            let scale_height = GAS_CONSTANT * temperature / STANDARD_GRAVITY;
             pressure *= libm::exp((TROPOPAUSE - geopotential) / scale_height);
         }
         Self::new(pressure / (GAS_CONSTANT * temperature), temperature)

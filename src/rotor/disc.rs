@@ -10,12 +10,8 @@
 //! distance s from the hinge lies at X e_r + Z e_z with X = h + s cos beta, Z = s sin beta, and n =
 //! cos beta e_z - sin beta e_r is perpendicular to the blade.
 
-use super::{
-    flapping::Flap,
-    inflow::{Field, Induced},
-};
+use super::{flapping::Flap, inflow::Field};
 use core::f64::consts::PI;
-use nalgebra::Vector3;
 
 /// Number of azimuths over which a disc without axial symmetry is averaged. All harmonics of the
 /// loads up to the 23rd are averaged exactly; against 144 azimuths, the thrust of the default rotor

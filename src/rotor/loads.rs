@@ -97,6 +97,11 @@ impl Rotor {
         })
     }
 
+    /// Whether `performance` is that of blades at their azimuths, rather than a mean over a turn.
+    pub fn shows_blades(&self, operation: &Operation, state: &State) -> bool {
+        self.scene(operation, state).is_blades
+    }
+
     /// What acts on a blade's hinge.
     pub(super) fn action(&self, operation: &Operation, scene: &Scene, moment: f64) -> Action {
         Action {

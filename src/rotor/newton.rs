@@ -29,6 +29,9 @@ pub fn solve<E>(
         if !value.norm().is_finite() {
             return Ok(None);
         }
+        if value.norm() == 0.0 {
+            return Ok(Some(at));
+        }
         let mut slopes = DMatrix::zeros(count, count);
         for i in 0..count {
             let mut other = at.clone();
@@ -39,6 +42,9 @@ pub fn solve<E>(
             let Some(step) = slopes.clone().lu().solve(&-&value) else {
                 return Ok(None);
             };
+            if step.norm() <= tolerance {
+                return Ok(Some(at + step));
+            }
             let before = value.norm();
             let mut part = 1.0;
             let mut next = (&at + &step, DVector::zeros(0));
@@ -55,9 +61,6 @@ pub fn solve<E>(
             slopes +=
                 (change - &slopes * &moved) * moved.transpose() / moved.norm_squared().max(1e-300);
             (at, value) = next;
-            if step.norm() <= tolerance && part == 1.0 {
-                return Ok(Some(at));
-            }
             if value.norm() > 0.2 * before {
                 break;
             }

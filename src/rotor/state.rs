@@ -46,4 +46,15 @@ impl State {
     pub fn set_field(&mut self, field: &Field) {
         self.inflow[..3].copy_from_slice(&field.to_array());
     }
+
+    /// Largest difference to another state in anything but the azimuth: m/s, rad or rad/s.
+    pub fn largest_change(&self, other: &Self) -> f64 {
+        let inflow = self.inflow.iter().zip(&other.inflow);
+        let flaps = self.flaps.iter().zip(&other.flaps);
+        let angles = flaps.flat_map(|(a, b)| [(a.angle - b.angle).abs(), (a.rate - b.rate).abs()]);
+        inflow
+            .map(|(a, b)| (a - b).abs())
+            .chain(angles)
+            .fold(0.0, f64::max)
+    }
 }

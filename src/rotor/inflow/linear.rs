@@ -22,6 +22,9 @@ pub enum Skew {
     PittPeters,
     /// Howlett 1981, NASA CR-166309: kx = sin^2 chi.
     Howlett,
+    /// Glauert 1926, ARC R&M 1111, for mu > 0.1: kx = 1.2. The factor sin chi, which is 1 there, is ours: hover
+    /// has no rear towards which the inflow could grow.
+    GlauertHighSpeed,
 }
 
 /// Flow through and along the disc, as a part of tip speed, beyond which Drees' terms in mu alone stay
@@ -36,7 +39,7 @@ pub struct Coefficients {
 }
 
 impl Skew {
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Uniform,
         Self::Coleman,
         Self::Drees,
@@ -44,6 +47,7 @@ impl Skew {
         Self::WhiteBlake,
         Self::PittPeters,
         Self::Howlett,
+        Self::GlauertHighSpeed,
     ];
 
     /// Coefficients in a flow along the disc (>= 0) and through it (any sign), m/s, for a rotor of the
@@ -71,6 +75,7 @@ impl Skew {
             Self::WhiteBlake => SQRT_2 * sin,
             Self::PittPeters => 15.0 * PI / 32.0 * half_tangent,
             Self::Howlett => sin * sin,
+            Self::GlauertHighSpeed => 1.2 * sin,
         };
         let ky = if self == Self::Drees { -2.0 * mu } else { 0.0 };
         Coefficients { kx, ky }
@@ -101,6 +106,7 @@ mod tests {
                 Skew::WhiteBlake => (SQRT_2 * chi.sin(), 0.0),
                 Skew::PittPeters => (15.0 * PI / 32.0 * (chi / 2.0).tan(), 0.0),
                 Skew::Howlett => (chi.sin().powi(2), 0.0),
+                Skew::GlauertHighSpeed => (1.2 * chi.sin(), 0.0),
             };
             for skew in Skew::ALL {
                 let (kx, ky) = expected(skew);
@@ -148,6 +154,7 @@ mod tests {
             Skew::Payne,
             Skew::PittPeters,
             Skew::Howlett,
+            Skew::GlauertHighSpeed,
         ] {
             assert_eq!(skew.coefficients(0.0, 0.05, 1.0).kx, 0.0);
             assert_eq!(skew.coefficients(0.0, 0.0, 1.0).kx, 0.0);
