@@ -165,7 +165,10 @@ fn every_flight_is_finite_or_one_clear_error() {
                         // Outputs that are not finite are an error of another kind.
                         match block.start().and_then(|()| block.step(0.1)) {
                             Ok(()) => flown += 1,
-                            Err(BlockError::Unsolved(e, _)) => {println!("{initialization} {rpm} {edgewise} {climb} {degrees} {e}"); refused += 1},
+                            Err(BlockError::Unsolved(e, _)) => {
+                                println!("{initialization} {rpm} {edgewise} {climb} {degrees} {e}");
+                                refused += 1
+                            }
                             Err(error) => panic!("{error}"),
                         }
                     }
