@@ -3,7 +3,7 @@
 
 Angles are in degrees, coefficients are per unit span and chord, Reynolds numbers refer to the chord
 (for the circle: to the diameter). A section is handled for 0 <= alpha <= 180 deg and mirrored on
-output: cl odd, cd even.
+output: cl odd, cd even. A section that is not symmetric is handled twice, upright and upside down.
 """
 
 import argparse
@@ -26,6 +26,7 @@ FIT_LIMIT_DEG = 12.7
 BELOW_STALL_DEG = 8
 
 REYNOLDS = [2e4, 4e4, 7e4, 1e5, 1.5e5, 2.42e5, 4e5, 7e5, 1e6, 2e6, 5e6, 1e7]
+GOETTINGEN_REYNOLDS = [1e5, 2e5, 5e5, 1e6, 2e6, 3e6, 4e6, 6e6]
 MODEL_SIZE = "xlarge"
 N_CRIT = 1.0
 STEP_DEG = 0.5
@@ -66,6 +67,7 @@ class Block:
     cl: np.ndarray
     cd: np.ndarray
     match: float | None = None  # deg; beyond it the post-stall method holds
+    upside_down: "Block | None" = None  # gives the negative angles; if absent, mirrored
 
 
 def measured_points():
@@ -136,13 +138,13 @@ def extend(reynolds, alpha, cl, cd):
     )
 
 
-def neuralfoil_polar(alpha, reynolds, n_crit, x_trip=1.0):
-    """cl, cd and confidence of the NACA 0015 by NeuralFoil at Mach 0; x_trip in chords."""
+def neuralfoil_polar(alpha, reynolds, n_crit, x_trip=1.0, airfoil="naca0015"):
+    """cl, cd and confidence of a named airfoil by NeuralFoil at Mach 0; x_trip in chords."""
     import aerosandbox
     import neuralfoil
 
     result = neuralfoil.get_aero_from_airfoil(
-        aerosandbox.Airfoil("naca0015"),
+        aerosandbox.Airfoil(airfoil),
         alpha=alpha,
         Re=reynolds,
         n_crit=n_crit,
@@ -153,10 +155,8 @@ def neuralfoil_polar(alpha, reynolds, n_crit, x_trip=1.0):
     return result["CL"], result["CD"], result["analysis_confidence"]
 
 
-def computed_block(reynolds):
-    """NACA 0015 by NeuralFoil to PAST_STALL_DEG beyond the first maximum of cl, then post-stall."""
-    alpha = np.arange(0, 30 + STEP_DEG, STEP_DEG)
-    cl, cd, confidence = neuralfoil_polar(alpha, reynolds, N_CRIT)
+def carried_on(reynolds, alpha, cl, cd, confidence):
+    """A polar to PAST_STALL_DEG beyond the first maximum of cl, then post-stall."""
     stall = int(np.argmax(np.diff(cl) <= 0))
     last = stall + round(PAST_STALL_DEG / STEP_DEG)
     if confidence[: last + 1].min() < LOWEST_CONFIDENCE:
@@ -164,8 +164,28 @@ def computed_block(reynolds):
             f"At Re {reynolds:.0f} NeuralFoil's confidence falls below {LOWEST_CONFIDENCE} "
             f"before the match angle of {alpha[last]} deg."
         )
-    cl[0] = 0.0
     return extend(reynolds, alpha[: last + 1], cl[: last + 1], cd[: last + 1])
+
+
+def computed_block(reynolds):
+    """NACA 0015 by NeuralFoil."""
+    alpha = np.arange(0, 30 + STEP_DEG, STEP_DEG)
+    cl, cd, confidence = neuralfoil_polar(alpha, reynolds, N_CRIT)
+    cl[0] = 0.0
+    return carried_on(reynolds, alpha, cl, cd, confidence)
+
+
+def goettingen_block(reynolds):
+    """Goettingen 429 by NeuralFoil, each side of 0 deg with its own stall and match angle."""
+    half = np.arange(0, 30 + STEP_DEG, STEP_DEG)
+    alpha = np.concatenate([-half[:0:-1], half])
+    cl, cd, confidence = neuralfoil_polar(alpha, reynolds, N_CRIT, airfoil="goe429")
+    zero = len(half) - 1
+    block = carried_on(reynolds, half, cl[zero:], cd[zero:], confidence[zero:])
+    block.upside_down = carried_on(
+        reynolds, half, -cl[zero::-1], cd[zero::-1], confidence[zero::-1]
+    )
+    return block
 
 
 def distance(alpha, cl, cd):
@@ -197,8 +217,26 @@ def check_block(block):
         raise TableError(f"{where} does not rise strictly from 0 to 180 deg.")
     if np.any(np.round(block.cd, 5) <= 0):
         raise TableError(f"{where} has drag that is not positive.")
-    if block.cl[0] != 0 or block.cl[-1] != 0:
-        raise TableError(f"{where} has lift at 0 or at 180 deg although the section is symmetric.")
+    if block.cl[-1] != 0:
+        raise TableError(f"{where} has lift at 180 deg.")
+    other = block.upside_down
+    if other is None:
+        if block.cl[0] != 0:
+            raise TableError(f"{where} has lift at 0 deg although the section is symmetric.")
+        return
+    if other.alpha[0] != 0 or other.alpha[-1] != 180 or np.any(np.diff(other.alpha) <= 0):
+        raise TableError(f"{where} does not rise strictly from -180 to 0 deg.")
+    if np.any(np.round(other.cd, 5) <= 0):
+        raise TableError(f"{where} has drag that is not positive.")
+    if other.cl[0] != -block.cl[0] or other.cd[0] != block.cd[0]:
+        raise TableError(f"{where} has two values at 0 deg.")
+    if other.cl[-1] != 0 or other.cd[-1] != block.cd[-1]:
+        raise TableError(f"{where} has other values at -180 than at 180 deg.")
+
+
+def rows_of(block):
+    """Rows of a block: alpha, cl, cd."""
+    return list(zip(block.alpha, np.round(block.cl, 4), block.cd, strict=True))
 
 
 def render(name, header, blocks):
@@ -208,11 +246,12 @@ def render(name, header, blocks):
     for block in blocks:
         check_block(block)
         lines += ["", f"reynolds {block.reynolds:.0f}"]
+        below = block.upside_down or block
         if block.match is not None:
-            lines += [f"# post-stall method beyond {block.match:.1f} deg"]
+            text = f"# post-stall method beyond {block.match:.1f} deg"
+            lines += [text if below is block else f"{text} and below {-below.match:.1f} deg"]
         lines += ["# alpha_deg      cl       cd"]
-        rows = list(zip(block.alpha, np.round(block.cl, 4), block.cd, strict=True))
-        for sign, half in ((-1, rows[:0:-1]), (1, rows)):
+        for sign, half in ((-1, rows_of(below)[:0:-1]), (1, rows_of(block))):
             # adding 0.0 turns a negative zero into zero
             lines += [f"{sign * a:11.1f} {sign * cl + 0.0:8.4f} {cd:8.5f}" for a, cl, cd in half]
     return "\n".join(lines) + "\n"
@@ -270,6 +309,48 @@ at least {LOWEST_CONFIDENCE} up to there.
     return render("NACA 0015, NeuralFoil", header, blocks)
 
 
+def goettingen_numbers(block):
+    """A sentence on lift slope, zero lift, drag and largest lift of a block."""
+    other = block.upside_down
+    alpha = np.concatenate([-other.alpha[:0:-1], block.alpha])
+    cl = np.concatenate([-other.cl[:0:-1], block.cl])
+    near = np.abs(alpha) <= 4
+    slope, offset = np.polyfit(alpha[near], cl[near], 1)
+    peaks = [float(b.cl[b.alpha == b.match - PAST_STALL_DEG][0]) for b in (block, other)]
+    return (
+        f"Re {block.reynolds:,.0f}: lift slope over +-4 deg {np.degrees(slope):.2f} per rad, "
+        f"zero lift at {-offset / slope:.2f} deg,\ncd {block.cd[0]:.5f} at 0 deg, "
+        f"first peaks of cl {peaks[0]:.2f} and {-peaks[1]:.2f}."
+    )
+
+
+def goettingen_file():
+    """goettingen429.polar"""
+    blocks = []
+    for reynolds in GOETTINGEN_REYNOLDS:
+        progress(f"  Re {reynolds:.0f}")
+        blocks.append(goettingen_block(reynolds))
+    numbers = [goettingen_numbers(blocks[GOETTINGEN_REYNOLDS.index(re)]) for re in (2e6, 4e6)]
+    header = f"""
+Goettingen 429, computed; no measured table of this section was found. Made by
+airfoil-tables/make_tables.py; do not edit.
+Coordinates: GOE 429 of the UIUC airfoil database (33 points, four decimals) as in AeroSandbox
+{version("aerosandbox")}: 11.4 % thick, meant to be symmetric; its camber of 0.2 % is kept.
+Method: NeuralFoil {version("neuralfoil")} (P. Sharpe), model size {MODEL_SIZE}, Mach 0,
+free transition with n_crit {N_CRIT:.0f} (free-stream turbulence about 2 % by Mack's relation),
+computed for positive and negative angles. n_crit is assumed: it is that of naca0015.polar; the
+reasons are in airfoil-tables/README.md.
+{numbers[0]}
+{numbers[1]}
+For comparison, assumed by Wheatley (1934), NACA Rep. 487, p. 13: lift slope 5.85 per rad ("a good
+average for most airfoils", p. 12), mean drag coefficient 0.0120, one and a half times the least.
+Match angles: {PAST_STALL_DEG:.0f} deg beyond the first maximum of cl on either side;
+NeuralFoil's own confidence is at least {LOWEST_CONFIDENCE} up to there.
+{POST_STALL}
+"""
+    return render("Goettingen 429, NeuralFoil", header, blocks)
+
+
 def circle_file():
     """circle.polar"""
     header = """
@@ -289,6 +370,7 @@ Re 2e5 and 1e6 drag depends on roughness and turbulence and may differ by a fact
 FILES = {
     "naca0015-knight-hefner.polar": knight_hefner_file,
     "naca0015.polar": computed_file,
+    "goettingen429.polar": goettingen_file,
     "circle.polar": circle_file,
 }
 

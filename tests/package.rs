@@ -52,7 +52,9 @@ fn the_archive_holds_what_an_importer_and_a_reader_expect() {
         "model.png",
         "resources/airfoils/naca0015-knight-hefner.polar",
         "resources/airfoils/naca0015.polar",
+        "resources/airfoils/goettingen429.polar",
         "resources/rotors/knight-hefner-3.toml",
+        "resources/rotors/pca-2.toml",
     ] {
         assert!(
             files.get(name).is_some_and(|f| !f.is_empty()),
