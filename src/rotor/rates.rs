@@ -101,23 +101,27 @@ impl Rotor {
     /// An estimate of how fast the states move towards where they belong, 1/s: inflow, and flapping with the
     /// blades' lift as damper and, with delta3, as spring.
     fn fastest_rate(&self, operation: &Operation, state: &State) -> f64 {
-        let flow = self.scene(operation, state).flow;
+        let scene = self.scene(operation, state);
+        let flow = &scene.flow;
         let radius = self.geometry.radius;
         let chords = self.geometry.stations.iter().map(|s| s.chord);
         let chord = chords.fold(0.0, f64::max);
         let solidity = f64::from(self.geometry.blades) * chord / (PI * radius);
         let tip_speed = flow.rotation.abs() * radius;
-        let stream = self.stream(&flow);
+        let stream = self.stream(flow);
         let inflow = match (&self.models.inflow, &self.peters_he) {
             (Inflow::PittPetersDynamic, _) => {
                 stream.fastest_rate(state.inflow[0], solidity, tip_speed)
+            }
+            (_, Some(wake)) if scene.is_blades => {
+                wake.fastest_rate_of_blades(&state.inflow, solidity, tip_speed, &stream)
             }
             (_, Some(wake)) => wake.fastest_rate(&state.inflow, solidity, tip_speed, &stream),
             _ => 0.0,
         };
         let flapping = self.models.hinge.freedom.map_or(0.0, |freedom| {
             let speed = tip_speed + flow.edgewise + flow.climb.abs();
-            freedom.fastest_rate(&self.models.hinge, operation, &flow, chord, speed)
+            freedom.fastest_rate(&self.models.hinge, operation, flow, chord, speed)
         });
         inflow + flapping
     }
