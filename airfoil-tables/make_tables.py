@@ -37,6 +37,9 @@ ASPECT_RATIO = 50
 CD_MAX = 1.11 + 0.018 * ASPECT_RATIO
 REVERSED_LIFT = 0.7
 
+WHEATLEY_SLOPE = 5.85
+WHEATLEY_DRAG = 0.0120
+
 # Circular cylinder: Reynolds number on the diameter and drag coefficient.
 CIRCLE = [
     (1e2, 1.40), (1e3, 1.00), (3e3, 0.95), (1e4, 1.10), (3e4, 1.20), (1e5, 1.20), (2e5, 1.15),
@@ -351,6 +354,24 @@ NeuralFoil's own confidence is at least {LOWEST_CONFIDENCE} up to there.
     return render("Goettingen 429, NeuralFoil", header, blocks)
 
 
+def wheatley_file():
+    """wheatley-1934.polar"""
+    header = """
+The blade section of Wheatley's analysis of autogiro rotors. Made by airfoil-tables/make_tables.py; do
+not edit.
+Source: Wheatley, J. B. (1934), NACA Report 487: lift in proportion to the angle of attack with the
+slope 5.85 per rad, "a good average for most airfoils" (pp. 12 and 13), the same at 180 deg as at 0
+(p. 6), mean drag coefficient 0.0120, which is 1.5 times the smallest of Goettingen 429 (p. 13).
+Ours: cl = 5.85/2 sin(2 alpha), which has these slopes and no stall; drag is the same at all angles.
+For rotors whose blades hardly stall; the Reynolds number is without meaning.
+"""
+    alpha = np.arange(0.0, 181.0, 1.0)
+    cl = 0.5 * WHEATLEY_SLOPE * np.sin(2.0 * np.radians(alpha))
+    cl[-1] = 0.0  # but for rounding
+    blocks = [Block(2e6, alpha, cl, np.full(len(alpha), WHEATLEY_DRAG))]
+    return render("linear section of NACA Report 487", header, blocks)
+
+
 def circle_file():
     """circle.polar"""
     header = """
@@ -371,6 +392,7 @@ FILES = {
     "naca0015-knight-hefner.polar": knight_hefner_file,
     "naca0015.polar": computed_file,
     "goettingen429.polar": goettingen_file,
+    "wheatley-1934.polar": wheatley_file,
     "circle.polar": circle_file,
 }
 

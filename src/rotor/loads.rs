@@ -416,7 +416,7 @@ impl Rotor {
                     Inflow::FiniteBlades => {
                         turn.fly(LossIn::Momentum, |_, place| {
                             let meets = flow.meets(element.radius, place);
-                            let axial = finite_blades::velocity(&element, &meets, flow.rotation);
+                            let axial = finite_blades::velocity(&element, &meets, flow);
                             Ok(Induced {
                                 axial: axial.map_err(unsolved)?,
                                 swirl: 0.0,

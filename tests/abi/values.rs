@@ -127,7 +127,11 @@ fn integers_and_enumerations_out_of_range_are_refused_with_the_choices() {
         ),
         ("model.inflow", 99, "1 (annulusClosedForm), 2 (annulus)"),
         ("model.lift", i32::MIN, "1 (table), 2 (twoPi)"),
-        ("model.tipLoss", 4, "1 (none), 2 (prandtl), 3 (gessowMyers)"),
+        (
+            "model.tipLoss",
+            99,
+            "1 (none), 2 (prandtl), 3 (gessowMyers)",
+        ),
         ("model.compressibility", -1, "1 (none), 2 (prandtlGlauert)"),
         ("air.model", 3, "1 (isa), 2 (constant)"),
     ] {

@@ -19,23 +19,30 @@
 //! 2 v |U_P + v| = N Omega c W cl sign(U_T)/(4 pi F).
 //! ```
 //!
-//! In hover this is the annulus' momentum without swirl. A rotor at rest induces nothing.
+//! In hover this is the annulus' momentum without swirl. With flow along the disc, V_x, of which the source
+//! says nothing, |U_P + v| becomes Glauert's resultant sqrt(V_x^2 + (U_P + v)^2) (1926, ARC R&M 1111), as
+//! in the other models: without it the inflow would stay that of hover at any speed. A rotor at rest
+//! induces nothing.
 
 use super::uniform;
-use crate::rotor::{disc::Encounter, element::Element, root::RootError};
+use crate::rotor::{
+    disc::{DiscFlow, Encounter},
+    element::Element,
+    root::RootError,
+};
 
 /// The velocity that a blade's element induces, along the blade's normal, m/s.
 ///
-/// `rotation`: rotor speed against the air, rad/s.
-pub fn velocity(element: &Element, meets: &Encounter, rotation: f64) -> Result<f64, RootError> {
-    let scale = libm::hypot(meets.in_plane, meets.through);
+/// `flow`: of the disc, of which the rotor speed and the speed along the disc count here.
+pub fn velocity(element: &Element, meets: &Encounter, flow: &DiscFlow) -> Result<f64, RootError> {
+    let scale = libm::hypot(meets.in_plane, meets.through) + flow.edgewise;
     if scale == 0.0 {
         return Ok(0.0);
     }
     let pitch = element.pitch + meets.pitch;
     let forward = if meets.in_plane < 0.0 { -1.0 } else { 1.0 };
-    let factor =
-        element.blades * rotation.abs() * element.chord * forward / (4.0 * core::f64::consts::PI);
+    let factor = element.blades * flow.rotation.abs() * element.chord * forward
+        / (4.0 * core::f64::consts::PI);
     let momentum = |v: f64| {
         let through = meets.through + v;
         let speed = libm::hypot(meets.in_plane, through);
@@ -46,5 +53,5 @@ pub fn velocity(element: &Element, meets: &Encounter, rotation: f64) -> Result<f
         let lift = element.lift_coefficient(alpha, speed);
         factor * speed * lift / element.tip_loss_factor(through / speed)
     };
-    uniform::mean_velocity(0.0, meets.through, scale, momentum)
+    uniform::mean_velocity(flow.edgewise, meets.through, scale, momentum)
 }
