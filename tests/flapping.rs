@@ -133,6 +133,7 @@ fn the_frequency_of_a_free_blade_is_that_of_offset_and_spring() {
     for (offset, spring) in [(0.0, 0.0), (0.1, 0.0), (0.0, 300.0), (0.05, 150.0)] {
         let mut rotor = Build {
             offset,
+            elements: 10,
             ..Build::default()
         }
         .rotor();
@@ -357,7 +358,7 @@ fn a_steady_start_in_forward_flight_repeats_itself() {
     ] {
         let mut rotor = Build {
             inflow,
-            elements: 20,
+            elements: 10,
             ..Build::default()
         }
         .rotor();
@@ -490,6 +491,7 @@ fn few_blades_show_the_same_cone() {
     let cone = |blades| {
         let mut rotor = Build {
             blades,
+            elements: 20,
             ..Build::default()
         }
         .rotor();
@@ -509,7 +511,11 @@ fn few_blades_show_the_same_cone() {
 /// Blades that hang, fall, are blown about or held by the stiffest spring stay finite.
 #[test]
 fn blades_of_a_stopped_rotor_fall_and_swing() {
-    let mut rotor = Build::default().rotor();
+    let mut rotor = Build {
+        elements: 10,
+        ..Build::default()
+    }
+    .rotor();
     let mut operation = hover(1.2, 0.1);
     operation.speed = 0.0;
     operation.gravity.z = -STANDARD_GRAVITY;
