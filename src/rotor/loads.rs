@@ -369,6 +369,7 @@ impl Rotor {
             stalled_radius: 0.0,
         };
         let (flow, places) = (&scene.flow, &scene.places);
+        let descent = self.models.descent;
         let width = self.elements.width;
         let square = self.geometry.radius * self.geometry.radius;
         for i in 0..self.elements.len() {
@@ -416,7 +417,7 @@ impl Rotor {
                     Inflow::FiniteBlades => {
                         turn.fly(LossIn::Momentum, |_, place| {
                             let meets = flow.meets(element.radius, place);
-                            let axial = finite_blades::velocity(&element, &meets, flow);
+                            let axial = finite_blades::velocity(&element, &meets, flow, descent);
                             Ok(Induced {
                                 axial: axial.map_err(unsolved)?,
                                 swirl: 0.0,
@@ -425,7 +426,7 @@ impl Rotor {
                         turn.induced
                     }
                     _ => {
-                        let answer = annulus::solve(&element, flow, places).map_err(unsolved)?;
+                        let answer = annulus::solve(&element, flow, places, descent).map_err(unsolved)?;
                         turn.fly(LossIn::Momentum, |_, _| Ok(answer.induced))?;
                         answer.mean_axial
                     }
@@ -484,7 +485,9 @@ impl Rotor {
         if scale == 0.0 {
             return Ok(Field::default());
         }
-        let mean = uniform::mean_velocity(flow.edgewise, flow.climb, scale, thrust)
+        let descent = self.models.descent;
+        let mass_flow = |v: f64| descent.speed(flow.edgewise, flow.climb, v);
+        let mean = uniform::mean_velocity(mass_flow, flow.climb, scale, thrust)
             .map_err(SolveError::Disc)?;
         Ok(distributed(mean))
     }

@@ -28,7 +28,7 @@ use airfoil::{Airfoil, SectionModel};
 use disc::{AZIMUTHS, Azimuth};
 use flapping::Hinge;
 use geometry::{Elements, Geometry};
-use inflow::{Inflow, peters_he};
+use inflow::{Descent, Inflow, peters_he};
 use nalgebra::Vector3;
 use root::RootError;
 use thiserror::Error;
@@ -41,6 +41,7 @@ pub use state::State;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Models {
     pub inflow: Inflow,
+    pub descent: Descent,
     pub blades: Blades,
     pub hinge: Hinge,
     pub tip_loss: TipLoss,

@@ -82,6 +82,9 @@ pub struct Answer {
 }
 
 /// The residual R(phi) where all azimuths are alike, dimensionless.
+///
+/// In descent the mass flow is that of `descent`, through the ratio g = V'/|V_c + v| that is 1 in momentum
+/// theory. XX
 fn axial_residual<S: Scalar>(element: &Element, undisturbed: Undisturbed, inflow_angle: S) -> S {
     let sin_inflow = inflow_angle.sin();
     let induced_angle = inflow_angle - undisturbed.angle;

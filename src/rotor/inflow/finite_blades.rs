@@ -24,7 +24,7 @@
 //! in the other models: without it the inflow would stay that of hover at any speed. A rotor at rest
 //! induces nothing.
 
-use super::uniform;
+use super::{Descent, uniform};
 use crate::rotor::{
     disc::{DiscFlow, Encounter},
     element::Element,
@@ -53,5 +53,6 @@ pub fn velocity(element: &Element, meets: &Encounter, flow: &DiscFlow) -> Result
         let lift = element.lift_coefficient(alpha, speed);
         factor * speed * lift / element.tip_loss_factor(through / speed)
     };
-    uniform::mean_velocity(flow.edgewise, meets.through, scale, momentum)
+    let mass_flow = |v: f64| descent.speed(flow.edgewise, meets.through, v);
+    uniform::mean_velocity(mass_flow, meets.through, scale, momentum)
 }

@@ -2,12 +2,14 @@
 
 pub mod annulus;
 pub mod closed_form;
+pub mod descent;
 pub mod finite_blades;
 pub mod linear;
 pub mod peters_he;
 pub mod pitt_peters;
 pub mod uniform;
 
+pub use descent::Descent;
 pub use linear::Skew;
 
 use super::disc::Azimuth;

@@ -2,14 +2,14 @@
 //! the thrust is the flux of momentum through a disc that is passed by the resultant flow,
 //!
 //! ```text
-//! T = 2 rho A v0 sqrt(V_x^2 + (V_c + v0)^2)
+//! T = 2 rho A v0 V',   V' = sqrt(V_x^2 + (V_c + v0)^2) or what `descent` has for it,
 //! ```
 //!
 //! and T is the thrust of the blades in that inflow: one bracketed unknown, the mean induced
 //! velocity v0. Multiplied out, nothing divides by the inflow, so that hover, edgewise flight and
 //! a disc at rest are no special cases.
 //!
-//! Descent. Where the thrust points against the flow through the disc there can be three roots.
+//! Descent. Where the thrust points against the flow through the disc momentum theory has up to three roots.
 //! As in the annulus, the windmill (air passing upwards) is taken where it exists, that is where
 //! the sides change their order before v0 = -V_c/2; else the root beyond.
 
@@ -23,16 +23,17 @@ const LARGEST_GROWTH: u32 = 60;
 
 /// The mean induced velocity v0, m/s.
 ///
-/// * `edgewise`, `climb`: flow along the disc and down through it, m/s
+/// * `mass_flow`: speed V' of the air through the disc that takes up momentum at an induced velocity, m/s
+/// * `climb`: flow down through the disc, m/s
 /// * `scale`: a speed > 0 of the order of the largest in the problem, m/s
 /// * `thrust_per_density_area`: thrust of the blades over rho A in the inflow v0, m2/s2
 pub fn mean_velocity(
-    edgewise: f64,
+    mass_flow: impl Fn(f64) -> f64,
     climb: f64,
     scale: f64,
     thrust_per_density_area: impl Fn(f64) -> f64,
 ) -> Result<f64, RootError> {
-    let equation = |v: f64| 2.0 * v * libm::hypot(edgewise, climb + v) - thrust_per_density_area(v);
+    let equation = |v: f64| 2.0 * v * mass_flow(v) - thrust_per_density_area(v);
     let end = |at: f64| End {
         at,
         residual: equation(at),
@@ -71,15 +72,15 @@ mod tests {
 
     /// Momentum theory at a given thrust, in units of the hover induced velocity: T/(rho A) = 2.
     fn at_unit_hover(mu: f64, climb: f64) -> f64 {
-        mean_velocity(mu, climb, 1.0, |_| 2.0).unwrap()
+        mean_velocity(|v| libm::hypot(mu, climb + v), climb, 1.0, |_| 2.0).unwrap()
     }
 
     #[test]
     fn hover_gives_the_square_root_of_half_the_thrust_coefficient() {
         for ct in [1e-5, 0.005, 0.02] {
-            let lambda = mean_velocity(0.0, 0.0, 1.0, |_| ct).unwrap();
+            let lambda = mean_velocity(f64::abs, 0.0, 1.0, |_| ct).unwrap();
             assert!((lambda - libm::sqrt(ct / 2.0)).abs() < 2e-13);
-            let down = mean_velocity(0.0, 0.0, 1.0, |_| -ct).unwrap();
+            let down = mean_velocity(f64::abs, 0.0, 1.0, |_| -ct).unwrap();
             assert!(
                 (down + lambda).abs() < 2e-13,
                 "negative thrust induces upwards"
@@ -94,7 +95,7 @@ mod tests {
         for i in 0..=20 {
             for j in -30..=30 {
                 let (mu, climb) = (0.025 * f64::from(i), 0.1 * f64::from(j) * hover);
-                let v = mean_velocity(mu, climb, 1.0, |_| 0.005).unwrap();
+                let v = mean_velocity(|v| libm::hypot(mu, climb + v), climb, 1.0, |_| 0.005).unwrap();
                 let left = 2.0 * v * libm::hypot(mu, climb + v);
                 assert!(
                     (left - 0.005).abs() < 1e-12,

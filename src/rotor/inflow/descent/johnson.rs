@@ -1,0 +1,215 @@
+//! Johnson's model of the mean inflow in the vortex ring state: Johnson 2005, "Model for Vortex Ring State
+//! Influence on Rotorcraft Flight Dynamics", NASA/TP-2005-213477, pp. 14, 23 and 24.
+//!
+//! In units of v_h, with V_z the climb and V_x the flow along the disc. The baseline is momentum theory with
+//! its two branches joined by a cubic between the points A and B (v = b V_z + c V_z^2 + d V_z^3: v and slope
+//! at A, v at B). To V_z + v comes a piecewise cubic, from nothing at D to given values at N and X,
+//! where V_z + v has no slope, the boundaries of instability in climb, and back to nothing at E. The points move
+//! with V_x and meet at V_xM, beyond which there is no vortex ring.
+//!
+//! Ours: the slopes at N and X fade with V_x as the values do, so that nothing jumps at V_xM.
+//!
+//! (The report was not at hand; its numbers are those in the open-source implementation of TU
+//! Braunschweig, which cites the pages.)
+
+use crate::rotor::root::{End, bracketed};
+
+/// Baseline, p. 24.
+const A: f64 = -1.5;
+const B: f64 = -2.1;
+const V_XC: f64 = 0.75;
+/// Vortex ring, p. 24.
+const D: f64 = -0.2;
+const N: f64 = -0.45;
+const THROUGH_N: f64 = 0.85;
+const X: f64 = -1.5;
+const THROUGH_X: f64 = 1.25;
+const E: f64 = -2.0;
+const V_XM: f64 = 0.95;
+
+/// Difference for the slopes of momentum theory.
+const SMALL: f64 = 1e-5;
+
+/// The boundary of instability at a V_x, all V_z in units of v_h.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Boundary {
+    pub upper: f64,
+    pub lower: f64,
+    /// Where the model has gone over to the windmill.
+    pub end: f64,
+}
+
+impl Boundary {
+    /// None beyond V_xM.
+    pub fn at(edgewise: f64) -> Option<Self> {
+        if edgewise.is_nan() || edgewise >= V_XM {
+            return None;
+        }
+        let part = 1.0 - (edgewise / V_XM) * (edgewise / V_XM);
+        let (middle, half) = (0.5 * (N + X), 0.5 * (N - X));
+        let upper = middle + half * libm::pow(part, 0.2);
+        let lower = middle - half * libm::pow(part, 1.5);
+        Some(Self {
+            upper,
+            lower,
+            end: E + (lower - X),
+        })
+    }
+}
+
+/// V' at V_x (>= 0), V_c (<= 0) and v (>= 0), m/s: v_h^2/v, v_h such that the model gives v.
+pub fn speed(edgewise: f64, climb: f64, induced: f64) -> f64 {
+    let momentum = libm::hypot(edgewise, climb + induced);
+    if induced == 0.0 {
+        return momentum;
+    }
+    let surplus = |hover: f64| hover * ratio(edgewise / hover, climb / hover) - induced;
+    let end = |at: f64| End {
+        at,
+        residual: surplus(at),
+    };
+    // Fast flow past a hardly loaded rotor induces little; a loaded one in slow flow induces its v_h.
+    let scale = libm::hypot(edgewise, climb) + induced;
+    let (mut low, mut high) = (end(1e-3 * libm::sqrt(induced * scale)), end(induced));
+    for _ in 0..60 {
+        if low.residual <= 0.0 {
+            break;
+        }
+        low = end(0.5 * low.at);
+    }
+    for _ in 0..60 {
+        if high.residual >= 0.0 {
+            break;
+        }
+        high = end(2.0 * high.at);
+    }
+    match bracketed(surplus, low, high, 1e-13 * scale) {
+        Ok(hover) => hover * hover / induced,
+        Err(_) => momentum,
+    }
+}
+
+/// v in units of v_h.
+fn ratio(edgewise: f64, climb: f64) -> f64 {
+    if climb >= 0.0 {
+        return helicopter(edgewise, climb);
+    }
+    let base = baseline(edgewise, climb);
+    let Some(boundary) = Boundary::at(edgewise) else {
+        return base;
+    };
+    let Boundary { upper, lower, end } = boundary;
+    if !(end < climb && climb < D) {
+        return base;
+    }
+    let share = edgewise / V_XM;
+    let fade = libm::sqrt(1.0 - libm::pow(share, 6.0));
+    let at = |v_z: f64, through: f64, own: f64| Knot {
+        at: v_z,
+        value: fade * (through - (own + baseline(0.0, own))),
+        slope: -fade * (1.0 + slope(|z| baseline(edgewise, z), v_z)),
+    };
+    let n = at(upper, THROUGH_N, N);
+    let x = at(lower, THROUGH_X, X);
+    let nothing = Knot {
+        at: D,
+        value: 0.0,
+        slope: 0.0,
+    };
+    let more = if climb >= upper {
+        hermite(&n, &nothing, climb)
+    } else if climb >= lower {
+        hermite(&x, &n, climb)
+    } else {
+        through_origin(&x, end, 0.0, climb)
+    };
+    base + more
+}
+
+/// Momentum theory with its branches joined.
+fn baseline(edgewise: f64, climb: f64) -> f64 {
+    if climb >= 0.0 || edgewise >= V_XC {
+        return helicopter(edgewise, climb);
+    }
+    let part = edgewise / V_XC;
+    let a = A + 0.2 * part * part;
+    let mut b = B + 0.2 * part * part;
+    if part > 0.5 {
+        let beyond = 2.0 * part - 1.0;
+        b += 0.7 * (a - b) * beyond * beyond * beyond;
+    }
+    if climb > a {
+        helicopter(edgewise, climb)
+    } else if climb < b {
+        windmill(edgewise, climb)
+    } else {
+        let knot = Knot {
+            at: a,
+            value: helicopter(edgewise, a),
+            slope: slope(|z| helicopter(edgewise, z), a),
+        };
+        through_origin(&knot, b, windmill(edgewise, b), climb)
+    }
+}
+
+/// The root of v sqrt(V_x^2 + (V_z + v)^2) = 1 that continues hover.
+fn helicopter(edgewise: f64, climb: f64) -> f64 {
+    momentum(edgewise, climb, 0.0_f64.max(-climb), 1.0 - 0.5 * climb.min(0.0) + climb.abs())
+}
+
+/// The root that continues fast descent; that of hover where there is none.
+fn windmill(edgewise: f64, climb: f64) -> f64 {
+    let middle = -0.5 * climb;
+    if middle * libm::hypot(edgewise, middle) < 1.0 {
+        return helicopter(edgewise, climb);
+    }
+    momentum(edgewise, climb, 0.0, middle)
+}
+
+/// A root between two velocities. Where the one that continues hover lies below the first, from 0.
+fn momentum(edgewise: f64, climb: f64, from: f64, to: f64) -> f64 {
+    let surplus = |v: f64| v * libm::hypot(edgewise, climb + v) - 1.0;
+    let end = |at: f64| End {
+        at,
+        residual: surplus(at),
+    };
+    let mut low = end(from);
+    if low.residual > 0.0 {
+        low = end(0.0);
+    }
+    bracketed(surplus, low, end(to), 1e-13).unwrap_or(to)
+}
+
+fn slope(quantity: impl Fn(f64) -> f64, at: f64) -> f64 {
+    (quantity(at + SMALL) - quantity(at)) / SMALL
+}
+
+struct Knot {
+    at: f64,
+    value: f64,
+    slope: f64,
+}
+
+/// The cubic with the values and slopes of two knots, a below b.
+fn hermite(a: &Knot, b: &Knot, at: f64) -> f64 {
+    let width = b.at - a.at;
+    if width <= 0.0 {
+        return a.value;
+    }
+    let t = (at - a.at) / width;
+    let (s, u) = (t * t, 1.0 - t);
+    a.value * (1.0 + 2.0 * t) * u * u
+        + b.value * s * (3.0 - 2.0 * t)
+        + width * (a.slope * t * u * u - b.slope * s * u)
+}
+
+/// The cubic b z + c z^2 + d z^3 with the value and slope of a knot and a value elsewhere.
+fn through_origin(knot: &Knot, other: f64, value: f64, at: f64) -> f64 {
+    // p(z)/z is a parabola: known at two places, with its slope at the first.
+    let (first, second) = (knot.value / knot.at, value / other);
+    let rise = (knot.slope - first) / knot.at;
+    let width = other - knot.at;
+    let bend = (second - first - rise * width) / (width * width);
+    let z = at - knot.at;
+    at * (first + rise * z + bend * z * z)
+}
