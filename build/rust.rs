@@ -120,6 +120,8 @@ fn row(table: &Table, v: &Variable) -> String {
             let enumeration = table.enumeration(&v.kind);
             let start = match table.enumeration_start(v) {
                 Some(item) => item as i64,
+                // A computed enumeration is one of its items before it is computed, too.
+                None if enumeration.is_some() => 1,
                 None => v.start.as_ref().and_then(|s| s.as_integer()).unwrap_or(0),
             };
             let last = enumeration.map(|e| e.items.len() as f64);

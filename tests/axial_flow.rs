@@ -15,7 +15,7 @@ use helicopter_rotor::{
         compressibility::Compressibility,
         flapping::Hinge,
         geometry::Geometry,
-        inflow::Inflow,
+        inflow::{Descent, Inflow},
         tip_loss::TipLoss,
     },
 };
@@ -66,6 +66,7 @@ fn frictionless() -> Airfoil {
 fn ideal(inflow: Inflow, tip_loss: TipLoss, chord: f64) -> Rotor {
     let models = Models {
         inflow,
+        descent: Descent::Momentum,
         blades: Blades::Automatic,
         hinge: Hinge::default(),
         tip_loss,

@@ -15,7 +15,7 @@ use helicopter_rotor::{
         compressibility::Compressibility,
         flapping::Hinge,
         geometry::{Geometry, Station},
-        inflow::{Inflow, Skew},
+        inflow::{Descent, Inflow, Skew},
         tip_loss::TipLoss,
     },
 };
@@ -31,6 +31,7 @@ fn project() -> PathBuf {
 fn models(inflow: Inflow, blades: Blades) -> Models {
     Models {
         inflow,
+        descent: Descent::Momentum,
         blades,
         hinge: Hinge::default(),
         tip_loss: TipLoss::Prandtl,

@@ -11,7 +11,7 @@ use helicopter_rotor::rotor::{
     compressibility::Compressibility,
     flapping::{Flap, Freedom, Hinge},
     geometry::{Geometry, Rotation},
-    inflow::{Inflow, Skew},
+    inflow::{Descent, Inflow, Skew},
     tip_loss::TipLoss,
 };
 use nalgebra::Vector3;
@@ -56,6 +56,7 @@ impl Build {
         geometry.rotation = self.rotation;
         let models = Models {
             inflow: self.inflow,
+            descent: Descent::Momentum,
             blades: Blades::Automatic,
             hinge: Hinge {
                 offset: self.offset,

@@ -16,7 +16,7 @@ use helicopter_rotor::{
         compressibility::Compressibility,
         flapping::Hinge,
         geometry::{Geometry, Rotation},
-        inflow::{Inflow, Skew},
+        inflow::{Descent, Inflow, Skew},
         tip_loss::TipLoss,
     },
 };
@@ -46,6 +46,7 @@ fn frictionless() -> Airfoil {
 fn models(inflow: Inflow) -> Models {
     Models {
         inflow,
+        descent: Descent::Momentum,
         blades: Blades::Disc,
         hinge: Hinge::default(),
         tip_loss: TipLoss::None,

@@ -13,7 +13,7 @@ pub use setup::SetupError;
 pub use values::{Stage, ValueError, Values};
 
 use crate::rotor::{
-    Operation, Performance, Rotor, SolveError, Start,
+    self, Operation, Performance, Rotor, SolveError, Start,
     air::{Air, STANDARD_GRAVITY},
 };
 use core::f64::consts::{PI, SQRT_2};
@@ -21,7 +21,7 @@ use integrate::Memory;
 use nalgebra::{Matrix3, Vector3};
 use std::path::PathBuf;
 use thiserror::Error;
-use variables::{AirModel, Causality, Initialization, REALS, integer, real};
+use variables::{AirModel, Causality, FlowState, Initialization, REALS, integer, real};
 
 /// Why the outputs could not be computed; they keep their last values.
 #[derive(Debug, Error, Clone, PartialEq)]
@@ -202,10 +202,11 @@ impl RotorBlock {
     fn publish(&mut self, flight: &Flight, memory: Memory) -> Result<(), BlockError> {
         let mut reals = self.values.reals;
         let rotor = self.rotor()?;
-        match rotor.performance(&flight.operation, &memory.state) {
-            Ok(performance) => write_outputs(&mut reals, rotor, &performance, flight),
+        let performance = match rotor.performance(&flight.operation, &memory.state) {
+            Ok(performance) => performance,
             Err(error) => return Err(self.unsolved(error)),
-        }
+        };
+        write_outputs(&mut reals, rotor, &performance, flight);
         reals[real::AZIMUTH] = memory.state.azimuth;
         write_stations(&mut reals, rotor);
         for (variable, value) in REALS.iter().zip(reals) {
@@ -219,6 +220,13 @@ impl RotorBlock {
             }
         }
         self.values.reals = reals;
+        let flow_state = match performance.flow_state {
+            rotor::inflow::descent::FlowState::Normal => FlowState::Normal,
+            rotor::inflow::descent::FlowState::VortexRing => FlowState::VortexRing,
+            rotor::inflow::descent::FlowState::TurbulentWake => FlowState::TurbulentWake,
+            rotor::inflow::descent::FlowState::WindmillBrake => FlowState::WindmillBrake,
+        };
+        self.values.integers[integer::FLOW_STATE] = flow_state as i32;
         self.memory = memory;
         self.current = true;
         Ok(())

@@ -4,8 +4,8 @@ use super::{
     location::resolve,
     values::Values,
     variables::{
-        BladesModel, CompressibilityModel, InflowModel, LiftModel, Rotation, TipLossModel, boolean,
-        integer, real, string,
+        BladesModel, CompressibilityModel, DescentModel, InflowModel, LiftModel, Rotation,
+        TipLossModel, boolean, integer, real, string,
     },
 };
 use crate::rotor::{
@@ -14,7 +14,7 @@ use crate::rotor::{
     compressibility::Compressibility,
     flapping::{Freedom, Hinge},
     geometry::{self, Geometry, GeometryError, RotorFileError},
-    inflow::{Inflow, Skew},
+    inflow::{Descent, Inflow, Skew},
     state::MOST_FLAPPING_BLADES,
     tip_loss::TipLoss,
 };
@@ -180,6 +180,11 @@ fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
     };
     Ok(Models {
         inflow,
+        descent: match choice(values, integer::MODEL__DESCENT, DescentModel::from_integer)? {
+            DescentModel::Momentum => Descent::Momentum,
+            DescentModel::Measured => Descent::Measured,
+            DescentModel::Johnson => Descent::Johnson,
+        },
         blades,
         hinge: hinge(values, geometry, inflow, blades)?,
         tip_loss: match choice(values, integer::MODEL__TIP_LOSS, TipLossModel::from_integer)? {

@@ -39,9 +39,9 @@ impl Causality {
     }
 }
 
-/// Whether a value reference is that of a Real variable that the block computes.
-pub fn is_computed(reference: u32) -> bool {
-    REALS
+/// Whether a value reference is that of a variable of the table that the block computes.
+pub fn is_computed<T>(table: &[Variable<T>], reference: u32) -> bool {
+    table
         .get(reference as usize)
         .is_some_and(|v| v.causality.is_computed())
 }

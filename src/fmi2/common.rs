@@ -10,7 +10,7 @@ use super::{
 };
 use crate::block::{
     RotorBlock, Values, path_from_uri,
-    variables::{GUID, LOG_CATEGORIES, MODEL_IDENTIFIER, is_computed},
+    variables::{GUID, INTEGERS, LOG_CATEGORIES, MODEL_IDENTIFIER, REALS, is_computed},
 };
 use core::ffi::{CStr, c_char};
 use std::{
@@ -358,7 +358,7 @@ pub unsafe extern "C" fn fmi2GetReal(
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
         let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
-        if vr.iter().any(|reference| is_computed(*reference)) {
+        if vr.iter().any(|reference| is_computed(&REALS, *reference)) {
             instance.refresh_while_initializing()?;
         }
         Ok(instance.block.values().read_reals(vr, value)?)
@@ -379,6 +379,12 @@ pub unsafe extern "C" fn fmi2GetInteger(
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
         let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
+        if vr
+            .iter()
+            .any(|reference| is_computed(&INTEGERS, *reference))
+        {
+            instance.refresh_while_initializing()?;
+        }
         Ok(instance.block.values().read_integers(vr, value)?)
     };
     // SAFETY: passed on from the caller.

@@ -8,7 +8,9 @@ use super::{
     flapping::{Action, Flap},
     geometry::Rotation,
     inflow::{
-        Field, Induced, Inflow, Skew, annulus, closed_form, finite_blades,
+        Field, Induced, Inflow, Skew, annulus, closed_form,
+        descent::FlowState,
+        finite_blades,
         linear::Coefficients,
         peters_he::{Harmonics, Wake},
         uniform,
@@ -86,14 +88,23 @@ impl Rotor {
         let mirror = self.mirror();
         let (force_x, force_y) = scene.axes.out_of_wind(sums.force.x, sums.force.y);
         let (moment_x, moment_y) = scene.axes.out_of_wind(moment.x, moment.y);
+        let radius = self.geometry.radius;
+        let induced_velocity = sums.flux / sums.area;
+        let flow_state = FlowState::of(
+            scene.flow.edgewise,
+            scene.flow.climb,
+            induced_velocity,
+            sums.force.z / (operation.air.density * PI * radius * radius),
+        );
         Ok(Performance {
             force: Vector3::new(force_x, mirror * force_y, sums.force.z),
             moment: Vector3::new(mirror * moment_x, moment_y, mirror * moment.z),
             torque: -moment.z,
-            induced_velocity: sums.flux / sums.area,
+            induced_velocity,
             stalled_radius: sums.stalled_radius,
             stalled_fraction: sums.stalled / self.elements.len() as f64,
             tip_path: self.tip_path(operation, state, &scene, &sums),
+            flow_state,
         })
     }
 
@@ -426,7 +437,8 @@ impl Rotor {
                         turn.induced
                     }
                     _ => {
-                        let answer = annulus::solve(&element, flow, places, descent).map_err(unsolved)?;
+                        let answer =
+                            annulus::solve(&element, flow, places, descent).map_err(unsolved)?;
                         turn.fly(LossIn::Momentum, |_, _| Ok(answer.induced))?;
                         answer.mean_axial
                     }

@@ -28,7 +28,7 @@ use airfoil::{Airfoil, SectionModel};
 use disc::{AZIMUTHS, Azimuth};
 use flapping::Hinge;
 use geometry::{Elements, Geometry};
-use inflow::{Descent, Inflow, peters_he};
+use inflow::{Descent, Inflow, descent::FlowState, peters_he};
 use nalgebra::Vector3;
 use root::RootError;
 use thiserror::Error;
@@ -98,6 +98,7 @@ pub struct Performance {
     /// Share of the blade span that is stalled.
     pub stalled_fraction: f64,
     pub tip_path: TipPath,
+    pub flow_state: FlowState,
 }
 
 /// The cone of the blades: beta = coning - longitudinal cos psi - lateral sin psi, psi from the tail, rad.

@@ -131,6 +131,7 @@ impl Rotor {
             edgewise: flow.edgewise,
             climb: flow.climb,
             radius: self.geometry.radius,
+            descent: self.models.descent,
         }
     }
 }

@@ -32,7 +32,8 @@
 //! Bracket. At phi = phi0 the sign of R is that of -cl; at 90 deg from there, R has the sign of
 //! the direction in which one went. So there is always a root on the side to which the lift pushes.
 //! In descent that side holds up to two more roots: the rotor as a windmill, with the air still
-//! passing upwards. The windmill is taken where it shows: where R has changed its sign at one of
+//! passing upwards, if momentum theory is asked for descent too (see `descent`, whose other laws have one
+//! root). The windmill is taken where it shows: where R has changed its sign at one of
 //! the angles 1/2, 3/8, 1/4 or 1/8 of phi0 (without lift, 4 F |sin phi| sin(phi - phi0) is largest
 //! at 1/2, and lift that falls with phi shifts the largest R towards 0). Else the root on the
 //! other side of phi = 0 is taken, which continues hover: the air is pushed down through the disc
@@ -54,7 +55,7 @@
 //! of the bracket the mean flow W vanishes; where strong flow along a slow disc leaves the sign
 //! of R unchanged even there, that end is taken: the rotor then brings its own air to rest.
 
-use super::Induced;
+use super::{Descent, Induced};
 use crate::rotor::{
     disc::{DiscFlow, Place},
     element::Element,
@@ -81,10 +82,7 @@ pub struct Answer {
     pub mean_axial: f64,
 }
 
-/// The residual R(phi) where all azimuths are alike, dimensionless.
-///
-/// In descent the mass flow is that of `descent`, through the ratio g = V'/|V_c + v| that is 1 in momentum
-/// theory. XX
+/// The residual R(phi) where all azimuths are alike and momentum theory holds, dimensionless.
 fn axial_residual<S: Scalar>(element: &Element, undisturbed: Undisturbed, inflow_angle: S) -> S {
     let sin_inflow = inflow_angle.sin();
     let induced_angle = inflow_angle - undisturbed.angle;
@@ -99,11 +97,11 @@ fn mean_residual(
     element: &Element,
     flow: &DiscFlow,
     places: &[Place],
+    descent: Descent,
     undisturbed: Undisturbed,
     inflow_angle: f64,
 ) -> f64 {
     let induced = induced(undisturbed, inflow_angle);
-    let mean_through = flow.climb + induced.axial;
     let (sin_inflow, cos_inflow) = (Scalar::sin(inflow_angle), Scalar::cos(inflow_angle));
     let speed = undisturbed.speed;
     let mut lift = 0.0;
@@ -123,7 +121,7 @@ fn mean_residual(
         lift += element.lift_coefficient(alpha, local_speed) * projected;
     }
     lift /= places.len() as f64 * speed * speed;
-    let resultant = libm::hypot(flow.edgewise, mean_through) / speed;
+    let resultant = descent.speed(flow.edgewise, flow.climb, induced.axial) / speed;
     let induced_part = Scalar::sin(inflow_angle - undisturbed.angle);
     4.0 * element.tip_loss_factor(sin_inflow) * resultant * induced_part - element.solidity() * lift
 }
@@ -140,7 +138,12 @@ fn induced(undisturbed: Undisturbed, inflow_angle: f64) -> Induced {
 /// What an element's annulus induces in a flow, averaged over `places`.
 ///
 /// Fails only if the airfoil's or the flow's numbers are not finite, or so large that they overflow.
-pub fn solve(element: &Element, flow: &DiscFlow, places: &[Place]) -> Result<Answer, RootError> {
+pub fn solve(
+    element: &Element,
+    flow: &DiscFlow,
+    places: &[Place],
+    descent: Descent,
+) -> Result<Answer, RootError> {
     let rotation = flow.rotation * element.radius;
     let undisturbed = Undisturbed {
         speed: libm::hypot(rotation, flow.climb),
@@ -149,22 +152,22 @@ pub fn solve(element: &Element, flow: &DiscFlow, places: &[Place]) -> Result<Ans
     if undisturbed.speed == 0.0 {
         return Ok(Answer::default());
     }
-    let is_flat = |place: &Place| place.flap_sin == 0.0;
-    let inflow_angle = if let [place] = places
-        && is_flat(place)
-        && flow.is_axisymmetric()
-    {
+    let equation = |phi: f64| mean_residual(element, flow, places, descent, undisturbed, phi);
+    let inflow_angle = if is_one_for_all(flow, places) {
         // At phi0 nothing is induced, and R is the lift alone.
         let lift = element.lift_coefficient(element.pitch - undisturbed.angle, undisturbed.speed);
         let start = End {
             at: undisturbed.angle,
             residual: -element.solidity() * lift,
         };
-        root(start, element.pitch, |phi| {
-            axial_residual(element, undisturbed, phi)
-        })?
+        if descent == Descent::Momentum || lift * flow.climb >= 0.0 {
+            root(start, element.pitch, |phi| {
+                axial_residual(element, undisturbed, phi)
+            })?
+        } else {
+            root(start, element.pitch, equation)?
+        }
     } else {
-        let equation = |phi: f64| mean_residual(element, flow, places, undisturbed, phi);
         let start = End {
             at: undisturbed.angle,
             residual: equation(undisturbed.angle),
@@ -177,6 +180,11 @@ pub fn solve(element: &Element, flow: &DiscFlow, places: &[Place]) -> Result<Ans
         induced,
         mean_axial: factor * induced.axial,
     })
+}
+
+/// Whether a single place without flapping stands for all.
+fn is_one_for_all(flow: &DiscFlow, places: &[Place]) -> bool {
+    matches!(places, [place] if place.flap_sin == 0.0) && flow.is_axisymmetric()
 }
 
 /// The root that belongs to the residual at phi0.
@@ -286,7 +294,7 @@ mod tests {
         }
     }
 
-    /// From hover to fast descent the rotor goes over to the windmill once and stays there.
+    /// From hover to fast descent momentum theory goes over to the windmill once and stays there.
     #[test]
     fn descent_changes_to_the_windmill_once() {
         let airfoil = airfoil();
@@ -303,7 +311,7 @@ mod tests {
                     ..DiscFlow::default()
                 };
                 let anywhere = Place::new(Default::default(), Default::default(), 0.0);
-                let answer = solve(&element, &flow, &[anywhere]).unwrap();
+                let answer = solve(&element, &flow, &[anywhere], Descent::Momentum).unwrap();
                 let is_windmill = climb + answer.induced.axial < -1e-6;
                 changes += u32::from(is_windmill != was_windmill);
                 was_windmill = is_windmill;

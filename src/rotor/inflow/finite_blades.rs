@@ -34,7 +34,12 @@ use crate::rotor::{
 /// The velocity that a blade's element induces, along the blade's normal, m/s.
 ///
 /// `flow`: of the disc, of which the rotor speed and the speed along the disc count here.
-pub fn velocity(element: &Element, meets: &Encounter, flow: &DiscFlow) -> Result<f64, RootError> {
+pub fn velocity(
+    element: &Element,
+    meets: &Encounter,
+    flow: &DiscFlow,
+    descent: Descent,
+) -> Result<f64, RootError> {
     let scale = libm::hypot(meets.in_plane, meets.through) + flow.edgewise;
     if scale == 0.0 {
         return Ok(0.0);

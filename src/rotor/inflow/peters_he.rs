@@ -41,7 +41,7 @@
 //! has an inverse and all modes decay. In edgewise flow, X = 1, some are zero, yet L still has an inverse by its odd parts: the condition number of Lc
 //! grows from 1.2 ... 3.3 at X = 0 to 3.3, 9.6, 13, 27, 29, 47 for orders 1 ... 6. X needs no limit.
 
-use super::{Field, pitt_peters::Stream};
+use super::{Field, descent::MassFlow, pitt_peters::Stream};
 use core::f64::consts::PI;
 
 pub const MOST_ORDER: usize = 6;
@@ -349,22 +349,14 @@ impl Wake {
     /// (78), (86), (87), with the mean over the disc for the induced velocity.
     fn flow(&self, states: &[f64], stream: &Stream) -> Flow {
         let induced = self.mean(states);
-        let through = stream.climb + induced;
-        let total = libm::hypot(stream.edgewise, through);
-        if total == 0.0 {
-            return Flow {
-                total: 0.0,
-                changes: 0.0,
-                skew: 0.0,
-            };
-        }
-        // In descent Vm can become negative, where the theory has no meaning; the wake then carries
-        // at least nothing away.
-        let square = stream.edgewise * stream.edgewise;
+        let MassFlow { speed, slope } =
+            stream
+                .descent
+                .mass_flow(stream.edgewise, stream.climb, induced);
         Flow {
-            total,
-            changes: ((square + (through + induced) * through) / total).max(0.0),
-            skew: stream.edgewise / (total + through.abs()),
+            total: speed,
+            changes: slope,
+            skew: stream.skew(induced),
         }
     }
 
@@ -489,6 +481,7 @@ mod tests {
     use super::super::{Field, pitt_peters::Loading};
     use super::*;
     use crate::rotor::disc::WindAxes;
+    use crate::rotor::inflow::Descent;
     use nalgebra::DMatrix;
 
     const SKEWS: [f64; 5] = [0.0, 0.3, 0.7, 0.95, 1.0];
@@ -555,6 +548,7 @@ mod tests {
             edgewise,
             climb,
             radius,
+            descent: Descent::Momentum,
         }
     }
 

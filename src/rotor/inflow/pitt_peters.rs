@@ -13,7 +13,8 @@
 //! ```
 //!
 //! in the order (v0, vc, vs), chi the skew of the wake, V = diag(VT, Vm, Vm) with VT = sqrt(mu^2 +
-//! lambda^2) and Vm = (mu^2 + (lambda + lambda_i) lambda)/VT. It is the usual form multiplied by
+//! lambda^2) and Vm = (mu^2 + (lambda + lambda_i) lambda)/VT = d(lambda_i VT)/d lambda_i, or in descent what
+//! `descent` has for them. It is the usual form multiplied by
 //! (Omega R)^2, so that a rotor at rest is no special case. The steady state without moments is momentum
 //! theory, T = 2 rho A VT v0, with kx = 15 pi/32 tan(chi/2).
 //!
@@ -21,7 +22,10 @@
 //! at the front raises it: the off-diagonal terms have opposite signs. With equal ones L would be
 //! singular at chi = 77.7 deg.
 
-use super::Field;
+use super::{
+    Field,
+    descent::{Descent, MassFlow},
+};
 use core::f64::consts::PI;
 
 /// The loading of the disc over rho A, m2/s2.
@@ -39,6 +43,7 @@ pub struct Stream {
     pub edgewise: f64,
     pub climb: f64,
     pub radius: f64,
+    pub descent: Descent,
 }
 
 const APPARENT_MASS: f64 = 8.0 / (3.0 * PI);
@@ -55,8 +60,10 @@ struct Gains {
 
 impl Stream {
     fn gains(&self, induced: f64) -> Gains {
-        let through = self.climb + induced;
-        let total = libm::hypot(self.edgewise, through);
+        let MassFlow {
+            speed: total,
+            slope: slopes,
+        } = self.descent.mass_flow(self.edgewise, self.climb, induced);
         if total == 0.0 {
             return Gains {
                 mean: 0.0,
@@ -66,11 +73,7 @@ impl Stream {
                 sine: 0.0,
             };
         }
-        // In descent Vm can become negative, where the theory has no meaning; the wake then carries
-        // at least nothing away.
-        let square = self.edgewise * self.edgewise;
-        let slopes = ((square + (through + induced) * through) / total).max(0.0);
-        let skew = self.edgewise / (total + through.abs());
+        let skew = self.skew(induced);
         let coupling = 15.0 * PI / 64.0 * skew;
         let (a, d) = (0.5, 2.0 * (1.0 - skew * skew));
         let determinant = a * d + coupling * coupling;
@@ -81,6 +84,16 @@ impl Stream {
             cosine_by_mean: -slopes * coupling / determinant,
             sine: slopes / (2.0 * (1.0 + skew * skew)),
         }
+    }
+
+    /// X = tan(chi/2) of the wake's skew, 0 in still air.
+    pub fn skew(&self, induced: f64) -> f64 {
+        let through = self.climb + induced;
+        let resultant = libm::hypot(self.edgewise, through);
+        if resultant == 0.0 {
+            return 0.0;
+        }
+        self.edgewise / (resultant + through.abs())
     }
 
     /// dv/dt, m/s2.
@@ -121,6 +134,7 @@ mod tests {
             edgewise,
             climb,
             radius,
+            descent: Descent::Momentum,
         }
     }
 

@@ -95,7 +95,8 @@ mod tests {
         for i in 0..=20 {
             for j in -30..=30 {
                 let (mu, climb) = (0.025 * f64::from(i), 0.1 * f64::from(j) * hover);
-                let v = mean_velocity(|v| libm::hypot(mu, climb + v), climb, 1.0, |_| 0.005).unwrap();
+                let v =
+                    mean_velocity(|v| libm::hypot(mu, climb + v), climb, 1.0, |_| 0.005).unwrap();
                 let left = 2.0 * v * libm::hypot(mu, climb + v);
                 assert!(
                     (left - 0.005).abs() < 1e-12,

@@ -154,7 +154,12 @@ fn baseline(edgewise: f64, climb: f64) -> f64 {
 
 /// The root of v sqrt(V_x^2 + (V_z + v)^2) = 1 that continues hover.
 fn helicopter(edgewise: f64, climb: f64) -> f64 {
-    momentum(edgewise, climb, 0.0_f64.max(-climb), 1.0 - 0.5 * climb.min(0.0) + climb.abs())
+    momentum(
+        edgewise,
+        climb,
+        0.0_f64.max(-climb),
+        1.0 - 0.5 * climb.min(0.0) + climb.abs(),
+    )
 }
 
 /// The root that continues fast descent; that of hover where there is none.
