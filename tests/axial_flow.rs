@@ -9,13 +9,13 @@ use helicopter_rotor::{
         variables::{integer, real, string},
     },
     rotor::{
-        Blades, Models, Operation, Performance, Rotor,
+        Blades, Drive, Models, Operation, Performance, Rotor,
         air::Air,
         airfoil::{Airfoil, Lift, SectionModel},
         compressibility::Compressibility,
         flapping::Hinge,
         geometry::Geometry,
-        inflow::{Descent, Inflow},
+        inflow::{Descent, Inflow, ground::GroundEffect},
         tip_loss::TipLoss,
     },
 };
@@ -67,6 +67,7 @@ fn ideal(inflow: Inflow, tip_loss: TipLoss, chord: f64) -> Rotor {
     let models = Models {
         inflow,
         descent: Descent::Momentum,
+        ground_effect: GroundEffect::None,
         blades: Blades::Automatic,
         hinge: Hinge::default(),
         tip_loss,
@@ -94,6 +95,8 @@ fn fly(rotor: &mut Rotor, collective: f64, climb: f64) -> Performance {
         angular_velocity: Vector3::zeros(),
         gravity: Vector3::zeros(),
         hinge_spring: 0.0,
+        height: 0.0,
+        drive: Drive::Speed,
         air: Air::new(1.2, 288.15),
     };
     rotor.steady(&operation).unwrap()

@@ -9,13 +9,13 @@ use helicopter_rotor::{
         variables::{INTEGERS, boolean, integer, real},
     },
     rotor::{
-        Blades, Models, Operation, Performance, Rotor, State,
+        Blades, Drive, Models, Operation, Performance, Rotor, State,
         air::Air,
         airfoil::{Airfoil, Lift, SectionModel},
         compressibility::Compressibility,
         flapping::Hinge,
         geometry::{Geometry, Station},
-        inflow::{Descent, Inflow, Skew},
+        inflow::{Descent, Inflow, Skew, ground::GroundEffect},
         tip_loss::TipLoss,
     },
 };
@@ -32,6 +32,7 @@ fn models(inflow: Inflow, blades: Blades) -> Models {
     Models {
         inflow,
         descent: Descent::Momentum,
+        ground_effect: GroundEffect::None,
         blades,
         hinge: Hinge::default(),
         tip_loss: TipLoss::Prandtl,
@@ -61,6 +62,8 @@ fn flight(collective: f64, airspeed: Vector3<f64>) -> Operation {
         angular_velocity: Vector3::zeros(),
         gravity: Vector3::zeros(),
         hinge_spring: 0.0,
+        height: 0.0,
+        drive: Drive::Speed,
         air: Air::new(1.2, 288.15),
     }
 }

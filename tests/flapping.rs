@@ -5,13 +5,13 @@
 #![allow(clippy::disallowed_methods)]
 
 use helicopter_rotor::rotor::{
-    Blades, Models, Operation, Performance, Rotor, Start, State,
+    Blades, Drive, Models, Operation, Performance, Rotor, Start, State,
     air::{Air, STANDARD_GRAVITY},
     airfoil::{Airfoil, Lift, SectionModel},
     compressibility::Compressibility,
     flapping::{Flap, Freedom, Hinge},
     geometry::{Geometry, Rotation},
-    inflow::{Descent, Inflow, Skew},
+    inflow::{Descent, Inflow, Skew, ground::GroundEffect},
     tip_loss::TipLoss,
 };
 use nalgebra::Vector3;
@@ -57,6 +57,7 @@ impl Build {
         let models = Models {
             inflow: self.inflow,
             descent: Descent::Momentum,
+            ground_effect: GroundEffect::None,
             blades: Blades::Automatic,
             hinge: Hinge {
                 offset: self.offset,
@@ -88,6 +89,8 @@ fn hover(density: f64, collective: f64) -> Operation {
         angular_velocity: Vector3::zeros(),
         gravity: Vector3::zeros(),
         hinge_spring: 0.0,
+        height: 0.0,
+        drive: Drive::Speed,
         air: Air::new(density, 288.15),
     }
 }

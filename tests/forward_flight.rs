@@ -10,13 +10,13 @@ use helicopter_rotor::{
         variables::{integer, real},
     },
     rotor::{
-        Blades, Models, Operation, Performance, Rotor,
+        Blades, Drive, Models, Operation, Performance, Rotor,
         air::Air,
         airfoil::{Airfoil, Lift, SectionModel},
         compressibility::Compressibility,
         flapping::Hinge,
         geometry::{Geometry, Rotation},
-        inflow::{Descent, Inflow, Skew},
+        inflow::{Descent, Inflow, Skew, ground::GroundEffect},
         tip_loss::TipLoss,
     },
 };
@@ -47,6 +47,7 @@ fn models(inflow: Inflow) -> Models {
     Models {
         inflow,
         descent: Descent::Momentum,
+        ground_effect: GroundEffect::None,
         blades: Blades::Disc,
         hinge: Hinge::default(),
         tip_loss: TipLoss::None,
@@ -74,6 +75,8 @@ fn flight(collective: f64, airspeed: Vector3<f64>) -> Operation {
         angular_velocity: Vector3::zeros(),
         gravity: Vector3::zeros(),
         hinge_spring: 0.0,
+        height: 0.0,
+        drive: Drive::Speed,
         air: Air::new(DENSITY, 288.15),
     }
 }

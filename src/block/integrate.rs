@@ -53,13 +53,11 @@ pub fn advance(
     duration: f64,
     azimuth_step: f64,
 ) -> Result<Memory, SolveError> {
-    if !rotor.has_memory() {
+    if !rotor.has_memory(operation) {
         let mut state = memory.state;
         state.azimuth += operation.speed * duration;
         return Ok(Memory::starting(state));
     }
-    // Infinite for a rotor at rest.
-    let cell = (azimuth_step / operation.speed).min(LONGEST_CELL);
     let mut since = match memory.since {
         Some(since) if since.operation == *operation => since,
         _ => Since {
@@ -77,6 +75,9 @@ pub fn advance(
     let mut left = since.elapsed + duration;
     let mut steps = 0;
     loop {
+        // Of the speed at the grid point; infinite for a rotor at rest.
+        let speed = operation.at_speed_of(&since.state).speed;
+        let cell = (azimuth_step / speed.abs()).min(LONGEST_CELL);
         let reaches_grid = left >= cell * (1.0 - 1e-9);
         let part = if reaches_grid { cell } else { left };
         let state = integrate(rotor, operation, &since.state, part, &mut steps)
@@ -92,7 +93,7 @@ pub fn advance(
         let stands_still = state.largest_change(&since.state) <= still;
         since.state = state;
         if stands_still {
-            since.state.azimuth += operation.speed * left;
+            since.state.azimuth += speed * left;
             left = 0.0;
         }
         since.elapsed = left;

@@ -13,7 +13,7 @@ pub use setup::SetupError;
 pub use values::{Stage, ValueError, Values};
 
 use crate::rotor::{
-    self, Operation, Performance, Rotor, SolveError, Start,
+    self, Drive, Operation, Performance, Rotor, SolveError, Start,
     air::{Air, STANDARD_GRAVITY},
 };
 use core::f64::consts::{PI, SQRT_2};
@@ -21,7 +21,7 @@ use integrate::Memory;
 use nalgebra::{Matrix3, Vector3};
 use std::path::PathBuf;
 use thiserror::Error;
-use variables::{AirModel, Causality, FlowState, Initialization, REALS, integer, real};
+use variables::{AirModel, Causality, DriveMode, FlowState, Initialization, REALS, integer, real};
 
 /// Why the outputs could not be computed; they keep their last values.
 #[derive(Debug, Error, Clone, PartialEq)]
@@ -168,7 +168,7 @@ impl RotorBlock {
         let advanced =
             integrate::advance(rotor, &flight.operation, &memory, duration, azimuth_step);
         if is_current
-            && !rotor.has_memory()
+            && !rotor.has_memory(&flight.operation)
             && !rotor.shows_blades(&flight.operation, &memory.state)
             && let Ok(advanced) = advanced
         {
@@ -206,7 +206,8 @@ impl RotorBlock {
             Ok(performance) => performance,
             Err(error) => return Err(self.unsolved(error)),
         };
-        write_outputs(&mut reals, rotor, &performance, flight);
+        let turning = flight.operation.at_speed_of(&memory.state);
+        write_outputs(&mut reals, rotor, &performance, &flight.shaft, &turning);
         reals[real::AZIMUTH] = memory.state.azimuth;
         write_stations(&mut reals, rotor);
         for (variable, value) in REALS.iter().zip(reals) {
@@ -252,6 +253,14 @@ impl Flight {
             angular_velocity: shaft.angular_velocity,
             gravity: shaft.gravity,
             hinge_spring: reals[real::FLAPPING__HINGE_SPRING],
+            height: reals[real::HEIGHT_ABOVE_GROUND],
+            drive: match setup::choice(values, integer::DRIVE_MODE, DriveMode::from_integer)? {
+                DriveMode::Speed => Drive::Speed,
+                DriveMode::Torque => Drive::Torque {
+                    torque: reals[real::DRIVE_TORQUE],
+                    inertia: reals[real::DRIVE_INERTIA],
+                },
+            },
             air: air(values)?,
         };
         Ok(Self { shaft, operation })
@@ -317,8 +326,13 @@ const STATIONS: usize = real::STATION_20__RADIUS - real::STATION_1__RADIUS + 1;
 const STANDSTILL: f64 = 1e-6;
 
 /// Writes the outputs among the Real variables.
-fn write_outputs(reals: &mut [f64], rotor: &Rotor, performance: &Performance, flight: &Flight) {
-    let Flight { shaft, operation } = flight;
+fn write_outputs(
+    reals: &mut [f64],
+    rotor: &Rotor,
+    performance: &Performance,
+    shaft: &Shaft,
+    operation: &Operation,
+) {
     let Performance {
         force: hub_force,
         moment: hub_moment,
@@ -348,7 +362,7 @@ fn write_outputs(reals: &mut [f64], rotor: &Rotor, performance: &Performance, fl
     let air = &operation.air;
     let geometry = rotor.geometry();
     let radius = geometry.radius;
-    let tip_speed = operation.speed * radius;
+    let tip_speed = operation.speed.abs() * radius;
     let reference_force = air.density * PI * radius * radius * tip_speed * tip_speed;
     let per = |quantity: f64, reference: f64| {
         if tip_speed > STANDSTILL {
@@ -374,7 +388,10 @@ fn write_outputs(reals: &mut [f64], rotor: &Rotor, performance: &Performance, fl
     let airspeed = &operation.airspeed;
     reals[real::INFLOW_RATIO] = per(airspeed.z + performance.induced_velocity, tip_speed);
     reals[real::ADVANCE_RATIO] = per(libm::hypot(airspeed.x, airspeed.y), tip_speed);
-    reals[real::ROTOR_SPEED] = reals[real::RPM];
+    reals[real::ROTOR_SPEED] = match operation.drive {
+        Drive::Speed => reals[real::RPM],
+        Drive::Torque { .. } => operation.speed * 30.0 / PI,
+    };
     reals[real::CONING] = performance.tip_path.coning;
     reals[real::LONGITUDINAL_FLAPPING] = performance.tip_path.longitudinal;
     reals[real::LATERAL_FLAPPING] = performance.tip_path.lateral;

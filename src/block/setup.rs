@@ -4,8 +4,8 @@ use super::{
     location::resolve,
     values::Values,
     variables::{
-        BladesModel, CompressibilityModel, DescentModel, InflowModel, LiftModel, Rotation,
-        TipLossModel, boolean, integer, real, string,
+        BladesModel, CompressibilityModel, DescentModel, GroundEffectModel, InflowModel, LiftModel,
+        Rotation, TipLossModel, boolean, integer, real, string,
     },
 };
 use crate::rotor::{
@@ -14,7 +14,7 @@ use crate::rotor::{
     compressibility::Compressibility,
     flapping::{Freedom, Hinge},
     geometry::{self, Geometry, GeometryError, RotorFileError},
-    inflow::{Descent, Inflow, Skew},
+    inflow::{Descent, Inflow, Skew, ground::GroundEffect},
     state::MOST_FLAPPING_BLADES,
     tip_loss::TipLoss,
 };
@@ -48,6 +48,10 @@ pub enum SetupError {
         "flapping.enabled = true with model.inflow = annulusClosedForm, which knows axial flow past rigid blades only; set another inflow model, or flapping.enabled to false"
     )]
     ClosedFormCannotFlap,
+    #[error(
+        "model.groundEffect with model.inflow = annulusClosedForm, which knows free air only; set another inflow model, or model.groundEffect to none"
+    )]
+    ClosedFormKnowsNoGround,
     #[error("{name} holds the value {value}, which is no choice")]
     Choice { name: &'static str, value: i32 },
 }
@@ -173,6 +177,19 @@ fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
             order: values.integers[integer::NUMERICS__INFLOW_ORDER].max(1) as usize,
         },
     };
+    let ground = choice(
+        values,
+        integer::MODEL__GROUND_EFFECT,
+        GroundEffectModel::from_integer,
+    )?;
+    let ground_effect = match ground {
+        GroundEffectModel::None => GroundEffect::None,
+        GroundEffectModel::CheesemanBennett => GroundEffect::CheesemanBennett,
+        GroundEffectModel::Hayden => GroundEffect::Hayden,
+    };
+    if inflow == Inflow::AnnulusClosedForm && ground_effect != GroundEffect::None {
+        return Err(SetupError::ClosedFormKnowsNoGround);
+    }
     let blades = match choice(values, integer::MODEL__BLADES, BladesModel::from_integer)? {
         BladesModel::Automatic => Blades::Automatic,
         BladesModel::Disc => Blades::Disc,
@@ -185,6 +202,7 @@ fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
             DescentModel::Measured => Descent::Measured,
             DescentModel::Johnson => Descent::Johnson,
         },
+        ground_effect,
         blades,
         hinge: hinge(values, geometry, inflow, blades)?,
         tip_loss: match choice(values, integer::MODEL__TIP_LOSS, TipLossModel::from_integer)? {

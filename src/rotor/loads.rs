@@ -1,7 +1,7 @@
 //! The loads of the rotor: all elements at all places, in what the inflow models induce.
 
 use super::{
-    Blades, Operation, Performance, Rotor, SolveError, State, TipPath,
+    Blades, Drive, Operation, Performance, Rotor, SolveError, State, TipPath,
     airfoil::Similarity,
     disc::{AZIMUTHS, Azimuth, DiscFlow, Place, Places, WindAxes},
     element::{Element, LossIn, Section},
@@ -11,6 +11,7 @@ use super::{
         Field, Induced, Inflow, Skew, annulus, closed_form,
         descent::FlowState,
         finite_blades,
+        ground::Ground,
         linear::Coefficients,
         peters_he::{Harmonics, Wake},
         uniform,
@@ -74,6 +75,7 @@ impl Rotor {
         operation: &Operation,
         state: &State,
     ) -> Result<Performance, SolveError> {
+        let operation = &operation.at_speed_of(state);
         let scene = self.scene(operation, state);
         let sums = self.fly(&scene, operation, state)?;
         let mut moment = sums.moment;
@@ -85,6 +87,11 @@ impl Rotor {
                 moment += Vector3::new(-place.azimuth.sin, place.azimuth.cos, 0.0) * up;
             }
         }
+        // A free shaft hands on to the hub what drives it; the rest speeds the rotor up.
+        let around = match operation.drive {
+            Drive::Speed => moment.z,
+            Drive::Torque { torque, .. } => -torque,
+        };
         let mirror = self.mirror();
         let (force_x, force_y) = scene.axes.out_of_wind(sums.force.x, sums.force.y);
         let (moment_x, moment_y) = scene.axes.out_of_wind(moment.x, moment.y);
@@ -98,7 +105,7 @@ impl Rotor {
         );
         Ok(Performance {
             force: Vector3::new(force_x, mirror * force_y, sums.force.z),
-            moment: Vector3::new(mirror * moment_x, moment_y, mirror * moment.z),
+            moment: Vector3::new(mirror * moment_x, moment_y, mirror * around),
             torque: -moment.z,
             induced_velocity,
             stalled_radius: sums.stalled_radius,
@@ -110,6 +117,7 @@ impl Rotor {
 
     /// Whether `performance` is that of blades at their azimuths, rather than a mean over a turn.
     pub fn shows_blades(&self, operation: &Operation, state: &State) -> bool {
+        let operation = &operation.at_speed_of(state);
         self.scene(operation, state).is_blades
     }
 
@@ -339,6 +347,10 @@ impl Rotor {
             }
             Inflow::PittPetersDynamic => {
                 let field = scene.axes.field_into_wind(&state.field());
+                let left = self
+                    .ground(operation)
+                    .factor(scene.flow.edgewise, field.mean);
+                let field = field.scaled(left);
                 self.sums(scene, operation, &Induction::Field(field))
             }
             Inflow::PetersHe { .. } => {
@@ -346,7 +358,10 @@ impl Rotor {
                 let Some(wake) = self.peters_he.take() else {
                     return Err(SolveError::Disc(RootError::NotFinite));
                 };
-                let states = wake.rotated(&state.inflow, scene.axes.cos, scene.axes.sin);
+                let mut states = wake.rotated(&state.inflow, scene.axes.cos, scene.axes.sin);
+                let mean = wake.mean(&states);
+                let left = self.ground(operation).factor(scene.flow.edgewise, mean);
+                states.iter_mut().for_each(|state| *state *= left);
                 let mut harmonics = [Wake::harmonics(1.0, 0.0); AZIMUTHS];
                 for (slot, place) in harmonics.iter_mut().zip(scene.places.iter()) {
                     *slot = Wake::harmonics(place.azimuth.cos, place.azimuth.sin);
@@ -381,6 +396,7 @@ impl Rotor {
         };
         let (flow, places) = (&scene.flow, &scene.places);
         let descent = self.models.descent;
+        let ground = self.ground(operation);
         let width = self.elements.width;
         let square = self.geometry.radius * self.geometry.radius;
         for i in 0..self.elements.len() {
@@ -428,7 +444,8 @@ impl Rotor {
                     Inflow::FiniteBlades => {
                         turn.fly(LossIn::Momentum, |_, place| {
                             let meets = flow.meets(element.radius, place);
-                            let axial = finite_blades::velocity(&element, &meets, flow, descent);
+                            let axial =
+                                finite_blades::velocity(&element, &meets, flow, descent, ground);
                             Ok(Induced {
                                 axial: axial.map_err(unsolved)?,
                                 swirl: 0.0,
@@ -437,8 +454,8 @@ impl Rotor {
                         turn.induced
                     }
                     _ => {
-                        let answer =
-                            annulus::solve(&element, flow, places, descent).map_err(unsolved)?;
+                        let answer = annulus::solve(&element, flow, places, descent, ground)
+                            .map_err(unsolved)?;
                         turn.fly(LossIn::Momentum, |_, _| Ok(answer.induced))?;
                         answer.mean_axial
                     }
@@ -471,15 +488,17 @@ impl Rotor {
         let flow = &scene.flow;
         let radius = self.geometry.radius;
         let tip_speed = flow.rotation.abs() * radius;
+        let ground = self.ground(operation);
         let distributed = |mean: f64| {
             let through = flow.climb + mean;
             let coefficients = skew.coefficients(flow.edgewise, through, tip_speed);
             let Coefficients { kx, ky } = coefficients;
-            Field {
+            let field = Field {
                 mean,
                 cosine: mean * kx,
                 sine: mean * ky,
-            }
+            };
+            field.scaled(ground.factor(flow.edgewise, mean))
         };
         let density_area = operation.air.density * PI * radius * radius;
         let thrust = |mean: f64| {
@@ -502,6 +521,13 @@ impl Rotor {
         let mean = uniform::mean_velocity(mass_flow, flow.climb, scale, thrust)
             .map_err(SolveError::Disc)?;
         Ok(distributed(mean))
+    }
+
+    fn ground(&self, operation: &Operation) -> Ground {
+        Ground {
+            effect: self.models.ground_effect,
+            height_ratio: operation.height / self.geometry.radius,
+        }
     }
 
     fn element(&self, i: usize, operation: &Operation) -> Element<'_> {

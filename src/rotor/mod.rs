@@ -28,7 +28,7 @@ use airfoil::{Airfoil, SectionModel};
 use disc::{AZIMUTHS, Azimuth};
 use flapping::Hinge;
 use geometry::{Elements, Geometry};
-use inflow::{Descent, Inflow, descent::FlowState, peters_he};
+use inflow::{Descent, Inflow, descent::FlowState, ground::GroundEffect, peters_he};
 use nalgebra::Vector3;
 use root::RootError;
 use thiserror::Error;
@@ -42,6 +42,7 @@ pub use state::State;
 pub struct Models {
     pub inflow: Inflow,
     pub descent: Descent,
+    pub ground_effect: GroundEffect,
     pub blades: Blades,
     pub hinge: Hinge,
     pub tip_loss: TipLoss,
@@ -69,7 +70,7 @@ pub struct Operation {
     pub collective: f64,
     pub cyclic_longitudinal: f64,
     pub cyclic_lateral: f64,
-    /// Omega >= 0, of the rotor against the hub, rad/s.
+    /// Omega, of the rotor against the hub, rad/s: imposed, or that at the start.
     pub speed: f64,
     /// Velocity of the hub through the air, m/s.
     pub airspeed: Vector3<f64>,
@@ -79,7 +80,34 @@ pub struct Operation {
     pub gravity: Vector3<f64>,
     /// Of the flapping hinges, N.m/rad.
     pub hinge_spring: f64,
+    /// Of the hub above the ground, m, >= 0.
+    pub height: f64,
+    pub drive: Drive,
     pub air: Air,
+}
+
+/// What turns the rotor.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Drive {
+    /// Whatever keeps its speed.
+    #[default]
+    Speed,
+    /// A torque, N.m; the speed is a state of the rotor. `inertia`: of everything that turns, about the
+    /// shaft, kg.m2.
+    Torque { torque: f64, inertia: f64 },
+}
+
+impl Operation {
+    /// The same at the speed that the rotor has in a state.
+    pub fn at_speed_of(&self, state: &State) -> Self {
+        match self.drive {
+            Drive::Speed => *self,
+            Drive::Torque { .. } => Self {
+                speed: state.speed,
+                ..*self
+            },
+        }
+    }
 }
 
 /// What the rotor answers: at the present azimuth, or as the mean over a turn in the disc. SI units,

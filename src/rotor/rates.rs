@@ -1,7 +1,7 @@
 //! How the states of the rotor change in time, and one step of it.
 
 use super::{
-    Operation, Rotor, SolveError, State,
+    Drive, Operation, Rotor, SolveError, State,
     disc::DiscFlow,
     inflow::{
         Inflow,
@@ -16,8 +16,10 @@ const LARGEST_PRODUCT: f64 = 1.0;
 
 impl Rotor {
     /// Whether anything but the azimuth changes in time by itself.
-    pub fn has_memory(&self) -> bool {
-        self.models.hinge.freedom.is_some() || self.inflow_states() > 0
+    pub fn has_memory(&self, operation: &Operation) -> bool {
+        operation.drive != Drive::Speed
+            || self.models.hinge.freedom.is_some()
+            || self.inflow_states() > 0
     }
 
     /// Number of the states of the inflow.
@@ -31,11 +33,12 @@ impl Rotor {
 
     /// How fast the states change, per second.
     pub fn rates(&mut self, operation: &Operation, state: &State) -> Result<State, SolveError> {
+        let operation = &operation.at_speed_of(state);
         let mut rates = State {
             azimuth: operation.speed,
             ..State::default()
         };
-        if !self.has_memory() {
+        if !self.has_memory(operation) {
             return Ok(rates);
         }
         let scene = self.scene(operation, state);
@@ -71,6 +74,9 @@ impl Rotor {
                 rate.rate = freedom.acceleration(&self.models.hinge, &scene.flow, place, &action);
             }
         }
+        if let Drive::Torque { torque, inertia } = operation.drive {
+            rates.speed = (torque + sums.moment.z) / inertia;
+        }
         Ok(rates)
     }
 
@@ -98,9 +104,10 @@ impl Rotor {
             .plus(0.75 * duration, &third))
     }
 
-    /// An estimate of how fast the states move towards where they belong, 1/s: inflow, and flapping with the
-    /// blades' lift as damper and, with delta3, as spring.
+    /// An estimate of how fast the states move towards where they belong, 1/s: inflow, flapping with the
+    /// blades' lift as damper and, with delta3, as spring, and the speed with the lift as brake.
     fn fastest_rate(&self, operation: &Operation, state: &State) -> f64 {
+        let operation = &operation.at_speed_of(state);
         let scene = self.scene(operation, state);
         let flow = &scene.flow;
         let radius = self.geometry.radius;
@@ -123,7 +130,16 @@ impl Rotor {
             let speed = tip_speed + flow.edgewise + flow.climb.abs();
             freedom.fastest_rate(&self.models.hinge, operation, flow, chord, speed)
         });
-        inflow + flapping
+        let turning = match operation.drive {
+            Drive::Speed => 0.0,
+            Drive::Torque { inertia, .. } => {
+                let blades = f64::from(self.geometry.blades);
+                let speed = tip_speed + flow.edgewise + flow.climb.abs();
+                blades * operation.air.density * PI * speed * chord * radius * radius * radius
+                    / (3.0 * inertia)
+            }
+        };
+        inflow + flapping + turning
     }
 
     fn stream(&self, flow: &DiscFlow) -> Stream {

@@ -1,7 +1,7 @@
 //! The states from which a rotor starts.
 
 use super::{
-    Blades, Models, Operation, Rotor, SolveError, State,
+    Blades, Drive, Models, Operation, Rotor, SolveError, State,
     flapping::{Flap, Hinge},
     inflow::{Inflow, Skew},
     newton,
@@ -46,7 +46,14 @@ impl Rotor {
                 .take(count)
                 .for_each(|f| *f = precone);
         }
-        if start == Start::Rest || !self.has_memory() {
+        // A torque that the rotor does not need leaves no speed as it is: the states are those at the speed of
+        // the start, as if it were imposed.
+        let operation = &Operation {
+            drive: Drive::Speed,
+            ..*operation
+        };
+        state.speed = operation.speed;
+        if start == Start::Rest || !self.has_memory(operation) {
             return Ok(state);
         }
         if self.inflow_states() > 0 {
@@ -55,7 +62,9 @@ impl Rotor {
         if !self.scene(operation, &state).is_blades {
             return Ok(state);
         }
-        self.periodic(operation, state, azimuth_step)
+        let mut state = self.periodic(operation, state, azimuth_step)?;
+        state.speed = operation.speed;
+        Ok(state)
     }
 
     /// The rotor in steady flight. In the disc, and for blades that do not flap in inflow without states, that

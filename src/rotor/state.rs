@@ -17,6 +17,8 @@ pub struct State {
     /// Of blade 1 from the tail in the turning sense, rad; it counts on over the turns. Blade k is k - 1
     /// steps of 2 pi/N ahead.
     pub azimuth: f64,
+    /// Of the rotor against the hub while a torque drives it, rad/s.
+    pub speed: f64,
     /// m/s, in the axes of the hub (mirrored for a clockwise rotor).
     pub inflow: [f64; MOST_INFLOW_STATES],
     pub flaps: [Flap; MOST_FLAPPING_BLADES],
@@ -27,6 +29,7 @@ impl State {
     pub fn plus(&self, factor: f64, rates: &Self) -> Self {
         let mut sum = *self;
         sum.azimuth += factor * rates.azimuth;
+        sum.speed += factor * rates.speed;
         for (value, rate) in sum.inflow.iter_mut().zip(&rates.inflow) {
             *value += factor * rate;
         }
@@ -55,6 +58,6 @@ impl State {
         inflow
             .map(|(a, b)| (a - b).abs())
             .chain(angles)
-            .fold(0.0, f64::max)
+            .fold((self.speed - other.speed).abs(), f64::max)
     }
 }

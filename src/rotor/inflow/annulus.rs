@@ -55,7 +55,7 @@
 //! of the bracket the mean flow W vanishes; where strong flow along a slow disc leaves the sign
 //! of R unchanged even there, that end is taken: the rotor then brings its own air to rest.
 
-use super::{Descent, Induced};
+use super::{Descent, Induced, ground::Ground};
 use crate::rotor::{
     disc::{DiscFlow, Place},
     element::Element,
@@ -97,11 +97,12 @@ fn mean_residual(
     element: &Element,
     flow: &DiscFlow,
     places: &[Place],
-    descent: Descent,
+    medium: Medium,
     undisturbed: Undisturbed,
     inflow_angle: f64,
 ) -> f64 {
-    let induced = induced(undisturbed, inflow_angle);
+    let far = induced(undisturbed, inflow_angle);
+    let induced = medium.at_the_blades(flow, far);
     let (sin_inflow, cos_inflow) = (Scalar::sin(inflow_angle), Scalar::cos(inflow_angle));
     let speed = undisturbed.speed;
     let mut lift = 0.0;
@@ -121,7 +122,7 @@ fn mean_residual(
         lift += element.lift_coefficient(alpha, local_speed) * projected;
     }
     lift /= places.len() as f64 * speed * speed;
-    let resultant = descent.speed(flow.edgewise, flow.climb, induced.axial) / speed;
+    let resultant = medium.descent.speed(flow.edgewise, flow.climb, far.axial) / speed;
     let induced_part = Scalar::sin(inflow_angle - undisturbed.angle);
     4.0 * element.tip_loss_factor(sin_inflow) * resultant * induced_part - element.solidity() * lift
 }
@@ -135,6 +136,24 @@ fn induced(undisturbed: Undisturbed, inflow_angle: f64) -> Induced {
     }
 }
 
+/// What the air and the ground around the rotor do to momentum theory.
+#[derive(Clone, Copy)]
+struct Medium {
+    descent: Descent,
+    ground: Ground,
+}
+
+impl Medium {
+    /// What is left near the ground of what would be induced far from it.
+    fn at_the_blades(&self, flow: &DiscFlow, far: Induced) -> Induced {
+        let left = self.ground.factor(flow.edgewise, far.axial);
+        Induced {
+            axial: left * far.axial,
+            swirl: left * far.swirl,
+        }
+    }
+}
+
 /// What an element's annulus induces in a flow, averaged over `places`.
 ///
 /// Fails only if the airfoil's or the flow's numbers are not finite, or so large that they overflow.
@@ -143,6 +162,7 @@ pub fn solve(
     flow: &DiscFlow,
     places: &[Place],
     descent: Descent,
+    ground: Ground,
 ) -> Result<Answer, RootError> {
     let rotation = flow.rotation * element.radius;
     let undisturbed = Undisturbed {
@@ -152,7 +172,8 @@ pub fn solve(
     if undisturbed.speed == 0.0 {
         return Ok(Answer::default());
     }
-    let equation = |phi: f64| mean_residual(element, flow, places, descent, undisturbed, phi);
+    let medium = Medium { descent, ground };
+    let equation = |phi: f64| mean_residual(element, flow, places, medium, undisturbed, phi);
     let inflow_angle = if is_one_for_all(flow, places) {
         // At phi0 nothing is induced, and R is the lift alone.
         let lift = element.lift_coefficient(element.pitch - undisturbed.angle, undisturbed.speed);
@@ -160,7 +181,8 @@ pub fn solve(
             at: undisturbed.angle,
             residual: -element.solidity() * lift,
         };
-        if descent == Descent::Momentum || lift * flow.climb >= 0.0 {
+        let is_momentum = descent == Descent::Momentum || lift * flow.climb >= 0.0;
+        if is_momentum && ground.is_far() {
             root(start, element.pitch, |phi| {
                 axial_residual(element, undisturbed, phi)
             })?
@@ -174,7 +196,7 @@ pub fn solve(
         };
         root(start, element.pitch, equation)?
     };
-    let induced = induced(undisturbed, inflow_angle);
+    let induced = medium.at_the_blades(flow, induced(undisturbed, inflow_angle));
     let factor = element.tip_loss_factor(Scalar::sin(inflow_angle));
     Ok(Answer {
         induced,
@@ -311,7 +333,14 @@ mod tests {
                     ..DiscFlow::default()
                 };
                 let anywhere = Place::new(Default::default(), Default::default(), 0.0);
-                let answer = solve(&element, &flow, &[anywhere], Descent::Momentum).unwrap();
+                let answer = solve(
+                    &element,
+                    &flow,
+                    &[anywhere],
+                    Descent::Momentum,
+                    Ground::default(),
+                )
+                .unwrap();
                 let is_windmill = climb + answer.induced.axial < -1e-6;
                 changes += u32::from(is_windmill != was_windmill);
                 was_windmill = is_windmill;

@@ -24,7 +24,7 @@
 //! in the other models: without it the inflow would stay that of hover at any speed. A rotor at rest
 //! induces nothing.
 
-use super::{Descent, uniform};
+use super::{Descent, ground::Ground, uniform};
 use crate::rotor::{
     disc::{DiscFlow, Encounter},
     element::Element,
@@ -39,6 +39,7 @@ pub fn velocity(
     meets: &Encounter,
     flow: &DiscFlow,
     descent: Descent,
+    ground: Ground,
 ) -> Result<f64, RootError> {
     let scale = libm::hypot(meets.in_plane, meets.through) + flow.edgewise;
     if scale == 0.0 {
@@ -49,7 +50,7 @@ pub fn velocity(
     let factor = element.blades * flow.rotation.abs() * element.chord * forward
         / (4.0 * core::f64::consts::PI);
     let momentum = |v: f64| {
-        let through = meets.through + v;
+        let through = meets.through + ground.factor(flow.edgewise, v) * v;
         let speed = libm::hypot(meets.in_plane, through);
         if speed == 0.0 {
             return 0.0;
@@ -59,5 +60,6 @@ pub fn velocity(
         factor * speed * lift / element.tip_loss_factor(through / speed)
     };
     let mass_flow = |v: f64| descent.speed(flow.edgewise, meets.through, v);
-    uniform::mean_velocity(mass_flow, meets.through, scale, momentum)
+    let far = uniform::mean_velocity(mass_flow, meets.through, scale, momentum)?;
+    Ok(ground.factor(flow.edgewise, far) * far)
 }

@@ -4,6 +4,7 @@ pub mod annulus;
 pub mod closed_form;
 pub mod descent;
 pub mod finite_blades;
+pub mod ground;
 pub mod linear;
 pub mod peters_he;
 pub mod pitt_peters;
@@ -58,6 +59,11 @@ impl Field {
             axial: self.mean + radius_ratio * slope,
             swirl: 0.0,
         }
+    }
+
+    /// `factor * self`.
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self::default().plus(factor, self)
     }
 
     /// Whether all azimuths are alike.
