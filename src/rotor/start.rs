@@ -114,14 +114,17 @@ impl Rotor {
     }
 
     /// The state that repeats itself from blade to blade: after the time in which each blade comes to where
-    /// the next one was, its flapping is that of the next one and the inflow is the same. (Periodic
-    /// shooting, as for limit cycles: Seydel 2010, "Practical Bifurcation and Stability Analysis", ch. 7.)
+    /// the next one was, its flapping is that of the next one and the inflow is the same; of a rotor
+    /// that does not turn, `start`. (Periodic shooting, as for limit cycles: Seydel 2010, "Practical Bifurcation and Stability Analysis", ch. 7.)
     fn periodic(
         &mut self,
         operation: &Operation,
         start: State,
         azimuth_step: f64,
     ) -> Result<State, SolveError> {
+        if operation.speed == 0.0 {
+            return Ok(start);
+        }
         let blades = self.geometry.blades as usize;
         let passage = 2.0 * PI / (blades as f64 * operation.speed);
         let cells = libm::ceil(passage * operation.speed / azimuth_step * (1.0 - 1e-9)).max(1.0);
