@@ -294,8 +294,13 @@ impl Rotor {
             at,
             residual: surplus(at),
         };
-        // At the largest coefficient no lift is left.
-        let ends = (end(0.0), end(blades * blades));
+        // With no lift lost the thrust is largest. At the largest coefficient no lift is left.
+        let first = end(0.0);
+        let mut last = end(first.residual.clamp(0.0, blades * blades));
+        if last.residual > 0.0 {
+            last = end(blades * blades);
+        }
+        let ends = (first, last);
         let solved = if ends.0.residual <= 0.0 {
             Ok(0.0)
         } else if ends.1.residual >= 0.0 {
