@@ -2,8 +2,9 @@
 //! flight gives the same bits again.
 //!
 //! The enumerations, their values and the switches are read from the table of variables, so that a model
-//! that is added to it is flown as well. All of their combinations fly a few flights each, chosen by a
-//! sequence that spreads evenly, and all flights are flown with each choice of inflow, blades and flapping.
+//! that is added to it is flown as well. All combinations of those that shape the solution fly once, in a
+//! flight and with the other choices of a sequence that spreads evenly, so that each pair of values meets
+//! hundreds of times; and all flights are flown with each inflow model, with and without flapping.
 
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
@@ -33,14 +34,18 @@ const RPM: f64 = 960.0;
 /// Speeds along the disc over the tip speed at `RPM`.
 const ADVANCE: [f64; 5] = [0.0, 0.05, 0.15, 0.3, 0.5];
 /// Climbs over the induced velocity in hover.
-const CLIMB: [f64; 4] = [-0.5, 0.0, 1.0, 3.0];
+const CLIMB: [f64; 7] = [-3.0, -1.8, -1.0, -0.5, 0.0, 1.0, 3.0];
 const COLLECTIVE_DEGREES: [f64; 4] = [-20.0, 0.0, 10.0, 40.0];
 /// Rotor speeds over `RPM`.
 const TURNING: [f64; 4] = [0.0, 0.5, 1.0, 1.5];
+/// Heights of the hub above the ground over R.
+const HEIGHT: [f64; 5] = [0.0, 0.4, 1.0, 2.5, 5.0];
+/// N.m, where a torque turns the rotor.
+const TORQUE: [f64; 3] = [-5.0, 0.0, 10.0];
 /// Few, because the steady start of flapping blades takes time by the square of their number.
 const BLADES: [i32; 3] = [1, 2, 3];
 /// Levels of the above, and of the collective and the rotor speed that follow.
-const LEVELS: [usize; 7] = [
+const LEVELS: [usize; 9] = [
     ADVANCE.len(),
     CLIMB.len(),
     COLLECTIVE_DEGREES.len(),
@@ -48,6 +53,20 @@ const LEVELS: [usize; 7] = [
     COLLECTIVE_DEGREES.len(),
     TURNING.len(),
     BLADES.len(),
+    HEIGHT.len(),
+    TORQUE.len(),
+];
+
+/// The choices that shape the solution; those that only shape the sections or the frame are not among them.
+const STRUCTURE: [&str; 8] = [
+    "model.inflow",
+    "model.blades",
+    "flapping.enabled",
+    "model.tipLoss",
+    "model.descent",
+    "model.groundEffect",
+    "driveMode",
+    "initialization",
 ];
 
 /// Largest share, in percent, of the flights for which no steady state is found, and of all that have no
@@ -67,7 +86,8 @@ enum Choice {
 impl Choice {
     fn all() -> Vec<Self> {
         let enumerations = INTEGERS.iter().enumerate();
-        let enumerations = enumerations.filter(|(_, v)| !v.choices.is_empty());
+        let enumerations =
+            enumerations.filter(|(_, v)| !v.choices.is_empty() && !v.causality.is_computed());
         let enumerations = enumerations.map(|(place, _)| Self::Enumeration(place));
         enumerations
             .chain((0..BOOLEANS.len()).map(Self::Switch))
@@ -129,11 +149,11 @@ fn digits(mut number: usize, counts: impl Iterator<Item = usize>) -> Vec<usize> 
 }
 
 /// Point `number` of a sequence that spreads evenly in all of its coordinates and in their pairs: multiples
-/// of powers of the root of x^9 = x + 1 without their whole parts (Roberts' generalisation of the golden
+/// of powers of the root of x^24 = x + 1 without their whole parts (Roberts' generalisation of the golden
 /// section). Every arithmetic progression of its points spreads evenly as well, so that it goes well with
 /// the digits of the same number.
 fn spread(number: usize, coordinate: usize) -> f64 {
-    let root: f64 = (0..60).fold(1.1, |x, _| (1.0 + x).powf(1.0 / 9.0));
+    let root: f64 = (0..60).fold(1.1, |x, _| (1.0 + x).powf(1.0 / 24.0));
     (0.5 + number as f64 * root.powi(-1 - coordinate as i32)).fract()
 }
 
@@ -192,13 +212,26 @@ impl Sweep {
         }
     }
 
-    /// Every combination of the choices, each with one flight of the sequence.
+    /// Every combination of the structure, each with one flight and the other choices of the sequence.
     fn combinations(&self) -> usize {
-        self.choices.iter().map(|c| c.count()).product()
+        self.structure().map(|c| c.count()).product()
+    }
+
+    fn structure(&self) -> impl Iterator<Item = &Choice> {
+        let is_structure = |c: &&Choice| STRUCTURE.contains(&c.name());
+        self.choices.iter().filter(is_structure)
     }
 
     fn combination(&self, number: usize) -> Run {
-        let values = digits(number, self.choices.iter().map(|c| c.count()));
+        let mut own = digits(number, self.structure().map(|c| c.count())).into_iter();
+        let value = |(i, choice): (usize, &Choice)| {
+            if STRUCTURE.contains(&choice.name()) {
+                own.next().unwrap()
+            } else {
+                (spread(number, LEVELS.len() + 1 + i) * choice.count() as f64) as usize
+            }
+        };
+        let values = self.choices.iter().enumerate().map(value).collect();
         let level = |k: usize| (spread(number, k) * LEVELS[k] as f64) as usize;
         Run {
             values,
@@ -208,7 +241,7 @@ impl Sweep {
 
     /// The choices that are combined with every flight; the others have their defaults.
     fn main_choices(&self) -> impl Iterator<Item = &Choice> {
-        let names = ["model.inflow", "model.blades", "flapping.enabled"];
+        let names = ["model.inflow", "flapping.enabled"];
         let is_main = move |c: &&Choice| names.iter().any(|name| c.is(name));
         self.choices.iter().filter(is_main)
     }
@@ -252,16 +285,20 @@ impl Sweep {
             later,
             later_turning,
             blades,
+            height,
+            torque,
         ] = run.levels;
         texts.push(format!(
-            "mu {}, climb {} v_h, collective {} then {} deg, rotor speed {} then {}, {} blades",
+            "mu {}, climb {} v_h, collective {} then {} deg, rotor speed {} then {}, {} blades, height {} R, torque {} N.m",
             ADVANCE[advance],
             CLIMB[climb],
             COLLECTIVE_DEGREES[collective],
             COLLECTIVE_DEGREES[later],
             TURNING[turning],
             TURNING[later_turning],
-            BLADES[blades]
+            BLADES[blades],
+            HEIGHT[height],
+            TORQUE[torque]
         ));
         texts.join(", ")
     }
@@ -273,8 +310,10 @@ impl Sweep {
             let mut values = self.choices.iter().zip(&run.values);
             values.any(|(c, v)| c.is(name) && c.value_name(*v) == value)
         };
-        has(BOOLEANS[boolean::FLAPPING__ENABLED].name, "true")
-            && (has("model.blades", "disc") || has("model.inflow", "annulusClosedForm"))
+        let flaps = has(BOOLEANS[boolean::FLAPPING__ENABLED].name, "true");
+        let closed = has("model.inflow", "annulusClosedForm");
+        flaps && (has("model.blades", "disc") || closed)
+            || closed && !has("model.groundEffect", "none")
     }
 
     /// Starts, steps, changes collective and rotor speed, steps again.
@@ -291,11 +330,20 @@ impl Sweep {
             later,
             later_turning,
             blades,
+            height,
+            torque,
         ] = run.levels;
         let count = integer::GEOMETRY__NUMBER_OF_BLADES as u32;
         block.set_integers(&[count], &[BLADES[blades]]).unwrap();
         let tip_speed = RPM * PI / 30.0 * block.values().reals[real::GEOMETRY__RADIUS];
         set(&mut block, real::VELOCITY_1, ADVANCE[advance] * tip_speed);
+        let radius = block.values().reals[real::GEOMETRY__RADIUS];
+        set(
+            &mut block,
+            real::HEIGHT_ABOVE_GROUND,
+            HEIGHT[height] * radius,
+        );
+        set(&mut block, real::DRIVE_TORQUE, TORQUE[torque]);
         let climb = CLIMB[climb] * self.hover_velocity;
         set(&mut block, real::VELOCITY_3, climb);
         let control = |block: &mut RotorBlock, collective: usize, turning: usize| {
@@ -356,11 +404,11 @@ fn judged(
     is_refusal_expected: bool,
 ) -> Result<(Outcome, Vec<u64>), String> {
     let outcome = match &error {
-        BlockError::Setup(SetupError::DiscCannotFlap | SetupError::ClosedFormCannotFlap)
-            if is_refusal_expected =>
-        {
-            Outcome::Refused
-        }
+        BlockError::Setup(
+            SetupError::DiscCannotFlap
+            | SetupError::ClosedFormCannotFlap
+            | SetupError::ClosedFormKnowsNoGround,
+        ) if is_refusal_expected => Outcome::Refused,
         BlockError::Unsolved(SolveError::NoSteadyState, _) => Outcome::NoSteadyState,
         BlockError::Unsolved(..) => Outcome::Unsolved,
         _ => return Err(error.to_string()),
