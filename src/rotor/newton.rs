@@ -60,7 +60,15 @@ pub fn solve<E>(
             let mut next = (&at + &step, DVector::zeros(0));
             for halving in 0..=HALVINGS {
                 next.0 = &at + &step * part;
-                next.1 = residual(&next.0, Use::Value)?;
+                // Too far a step may lead to where nothing can be computed.
+                match residual(&next.0, Use::Value) {
+                    Ok(value) => next.1 = value,
+                    Err(error) if halving == HALVINGS => return Err(error),
+                    Err(_) => {
+                        part *= 0.5;
+                        continue;
+                    }
+                }
                 if next.1.norm() < before || halving == HALVINGS {
                     break;
                 }

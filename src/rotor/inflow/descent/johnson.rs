@@ -218,3 +218,77 @@ fn through_origin(knot: &Knot, other: f64, value: f64, at: f64) -> f64 {
     let z = at - knot.at;
     at * (first + rise * z + bend * z * z)
 }
+
+#[cfg(test)]
+#[allow(clippy::disallowed_methods)] // the expectations are independent of libm
+mod tests {
+    use super::*;
+
+    /// P. 24 of the report: V_z + v = 0.85 at N and 1.25 at X, without slope there.
+    #[test]
+    fn the_boundary_of_instability_is_where_the_air_through_the_disc_has_no_slope() {
+        for (v_z, through) in [(N, THROUGH_N), (X, THROUGH_X)] {
+            let at = |z: f64| z + ratio(0.0, z);
+            assert!((at(v_z) - through).abs() < 1e-12, "{v_z}: {}", at(v_z));
+            let slope = (at(v_z + 1e-4) - at(v_z - 1e-4)) / 2e-4;
+            assert!(slope.abs() < 2e-3, "{v_z}: {slope}");
+        }
+        // Between them the air passes the faster the faster the descent: unstable.
+        assert!(ratio(0.0, -1.0) - 1.0 > ratio(0.0, -0.9) - 0.9);
+        let boundary = Boundary::at(0.0).unwrap();
+        assert!((boundary.upper - N).abs() < 1e-12);
+        assert_eq!((boundary.lower, boundary.end), (X, E));
+        assert_eq!(Boundary::at(V_XM), None);
+    }
+
+    /// Momentum theory in climb, at speed, and in fast descent.
+    #[test]
+    fn outside_the_vortex_ring_it_is_momentum_theory() {
+        for (v_x, v_z) in [
+            (0.0, 0.5),
+            (0.3, 0.0),
+            (2.0, -1.0),
+            (0.0, -3.0),
+            (0.5, -0.1),
+        ] {
+            let v = ratio(v_x, v_z);
+            let thrust = v * v_x.hypot(v_z + v);
+            assert!((thrust - 1.0).abs() < 1e-10, "{v_x} {v_z}: {thrust}");
+        }
+        let fast = 1.5 - (2.25_f64 - 1.0).sqrt();
+        assert!((ratio(0.0, -3.0) - fast).abs() < 1e-10);
+    }
+
+    #[test]
+    fn the_speed_of_the_air_gives_the_induced_velocity_back() {
+        for v_x in [0.0, 0.2, 0.6, 0.9, 1.5] {
+            for i in 1..60 {
+                let v_z = -0.05 * f64::from(i);
+                let v = ratio(v_x, v_z);
+                // In units of v_h and in others.
+                for hover in [1.0, 7.0] {
+                    let found = speed(v_x * hover, v_z * hover, v * hover);
+                    let expected = hover / v;
+                    assert!(
+                        (found / expected - 1.0).abs() < 1e-6,
+                        "{v_x} {v_z}: {found} {expected}"
+                    );
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn nothing_jumps() {
+        for j in 0..=22 {
+            let v_x = 0.05 * f64::from(j);
+            for i in 0..300 {
+                let v_z = 0.01 * f64::from(100 - i) - 1.0;
+                let here = ratio(v_x, v_z);
+                for there in [ratio(v_x, v_z - 1e-3), ratio(v_x + 1e-3, v_z)] {
+                    assert!((there - here).abs() < 0.05, "{v_x} {v_z}: {here} {there}");
+                }
+            }
+        }
+    }
+}
