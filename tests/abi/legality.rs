@@ -4,9 +4,9 @@
 use crate::support::{
     Instance,
     c::{self, Component, EventInfo, Functions, Status},
-    instance::{bits, callbacks},
+    instance::{bits, callbacks, reference},
 };
-use helicopter_rotor::block::variables::{GUID, REALS};
+use helicopter_rotor::block::variables::{GUID, INTEGERS, REALS};
 use std::{ffi::CString, ptr, sync::Mutex};
 
 /// The columns of the table.
@@ -168,13 +168,14 @@ fn finish(instance: &Instance, state: usize) -> Vec<u64> {
 /// Calls a function with harmless arguments, or frees nothing. Where it answers no status, 0 says
 /// that its answer is good.
 fn call(name: &str, f: &Functions, c: Component) -> Status {
-    let reference = [0];
+    let first = [0];
+    let blades = reference(&INTEGERS, "geometry.numberOfBlades");
     let (mut real, mut integer, mut text) = ([REALS[0].start], [4], [ptr::null()]);
     let empty = [c"".as_ptr()];
     let (mut size, mut state, mut bytes) = (0, ptr::null_mut(), [0; 8]);
     let mut info = EventInfo::default();
     let mut flag = [0, 0];
-    let (r, n) = (reference.as_ptr(), 1);
+    let (r, n) = (first.as_ptr(), 1);
     let (x, i) = (real.as_mut_ptr(), integer.as_mut_ptr());
     // SAFETY: `c` is null or a living instance; all pointers are valid for the counts given.
     unsafe {
@@ -198,7 +199,7 @@ fn call(name: &str, f: &Functions, c: Component) -> Status {
             "fmi2GetBoolean" => (f.fmi2GetBoolean)(c, r, n, flag.as_mut_ptr()),
             "fmi2GetString" => (f.fmi2GetString)(c, r, n, text.as_mut_ptr()),
             "fmi2SetReal" => (f.fmi2SetReal)(c, r, n, x),
-            "fmi2SetInteger" => (f.fmi2SetInteger)(c, r, n, i),
+            "fmi2SetInteger" => (f.fmi2SetInteger)(c, &blades, n, i),
             "fmi2SetBoolean" => (f.fmi2SetBoolean)(c, r, n, flag.as_ptr()),
             "fmi2SetString" => (f.fmi2SetString)(c, r, n, empty.as_ptr()),
             "fmi2GetFMUstate" => (f.fmi2GetFMUstate)(c, &mut state),

@@ -224,6 +224,10 @@ fn outputs_cannot_be_set() {
         refused_without_a_trace(&[variable.name, "is computed by the rotor"], set);
         refused_at_the_start(&[variable.name, "is computed by the rotor"], set);
     }
+    for variable in INTEGERS.iter().filter(|v| v.causality.is_computed()) {
+        let set = |i: &Instance| i.set_integer(variable.name, 1);
+        refused_without_a_trace(&[variable.name, "is computed by the rotor"], set);
+    }
 }
 
 #[test]
@@ -233,7 +237,7 @@ fn fixed_parameters_keep_their_values_once_the_simulation_runs() {
         let other = if v.start == v.max { v.min } else { v.max };
         refused_without_a_trace(&[v.name, "fixed parameter"], |i| i.set_real(v.name, other));
     }
-    for v in &INTEGERS {
+    for v in INTEGERS.iter().filter(|v| fixed(&v.causality, v.tunable)) {
         let other = if v.start == 1 { 2 } else { 1 };
         refused_without_a_trace(&[v.name, "fixed parameter"], |i| {
             i.set_integer(v.name, other)
@@ -257,7 +261,10 @@ fn fixed_parameters_may_be_set_to_the_values_that_they_have() {
         for v in REALS.iter().filter(|v| v.causality == Causality::Parameter) {
             assert_eq!(instance.set_real(v.name, v.start), c::OK, "{}", v.name);
         }
-        for v in &INTEGERS {
+        for v in INTEGERS
+            .iter()
+            .filter(|v| v.causality == Causality::Parameter)
+        {
             assert_eq!(instance.set_integer(v.name, v.start), c::OK, "{}", v.name);
         }
         for v in &BOOLEANS {

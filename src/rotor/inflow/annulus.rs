@@ -108,9 +108,10 @@ fn mean_residual(
     let mut lift = 0.0;
     for place in places {
         let meets = flow.meets(element.radius, place);
+        // In units of U, whose square may be no number.
         let (in_plane, through) = (
-            meets.in_plane - induced.swirl,
-            meets.through + meets.flap_cos * induced.axial,
+            (meets.in_plane - induced.swirl) / speed,
+            (meets.through + meets.flap_cos * induced.axial) / speed,
         );
         let square = in_plane * in_plane + through * through;
         let local_speed = libm::sqrt(square);
@@ -119,9 +120,9 @@ fn mean_residual(
         // of which the first stands on the flapping blade.
         let axial = meets.flap_cos * in_plane * cos_inflow;
         let projected = local_speed * (axial + through * sin_inflow);
-        lift += element.lift_coefficient(alpha, local_speed) * projected;
+        lift += element.lift_coefficient(alpha, local_speed * speed) * projected;
     }
-    lift /= places.len() as f64 * speed * speed;
+    lift /= places.len() as f64;
     let resultant = medium.descent.speed(flow.edgewise, flow.climb, far.axial) / speed;
     let induced_part = Scalar::sin(inflow_angle - undisturbed.angle);
     4.0 * element.tip_loss_factor(sin_inflow) * resultant * induced_part - element.solidity() * lift
