@@ -52,6 +52,7 @@ fn the_archive_holds_what_an_importer_and_a_reader_expect() {
         "model.png",
         "resources/airfoils/naca0015-knight-hefner.polar",
         "resources/airfoils/naca0015.polar",
+        "resources/airfoils/naca0015.txt",
         "resources/airfoils/goettingen429.polar",
         "resources/airfoils/wheatley-1934.polar",
         "resources/rotors/knight-hefner-3.toml",

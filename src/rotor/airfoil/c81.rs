@@ -11,7 +11,7 @@
 //! Angles run from -180 to 180 deg; the values at the two ends need not agree, as they do not in many
 //! a published table. The moment table is not used and need not be complete.
 
-use super::{Airfoil, AirfoilError, Axis, Curve, Table};
+use super::{Airfoil, AirfoilError, Axis, Curve, Data, Table};
 
 const WIDTH: usize = 7;
 const VALUES_PER_LINE: usize = 9;
@@ -49,8 +49,7 @@ pub fn parse(text: &str, file: &str) -> Result<Airfoil, AirfoilError> {
     let drag = reader.table("drag", drag_machs, drag_angles)?;
     Ok(Airfoil {
         name: name.trim().to_owned(),
-        lift,
-        drag,
+        data: Data::Tables { lift, drag },
     })
 }
 
@@ -189,6 +188,7 @@ Test section                   2 4 1 3 1 2
         };
         airfoil.lift_coefficient(
             &model,
+            0.0,
             0.0,
             Similarity {
                 reynolds: 1e6,
