@@ -18,6 +18,7 @@
 use super::{
     Airfoil, AirfoilError, Data,
     laws::{Law, Laws},
+    records::{Number, Problem, words},
 };
 
 /// Of several tables, the one that is read.
@@ -36,14 +37,6 @@ const LATEST_STALL: f64 = 45.0;
 /// Angles up to stall at which the drag polynomial is tried.
 const TRIED: usize = 200;
 
-/// A number and where it stands: line and column, from 1.
-#[derive(Debug, Clone, Copy)]
-struct Number {
-    value: f64,
-    line: usize,
-    column: usize,
-}
-
 /// A table as its file has it.
 #[derive(Debug)]
 struct Matrix {
@@ -53,9 +46,6 @@ struct Matrix {
     line: usize,
     numbers: Vec<Number>,
 }
-
-/// What is wrong, and in which line and column.
-type Problem = (usize, usize, String);
 
 /// Whether a text begins as a CombiTable file does.
 pub fn is_combi(text: &str) -> bool {
@@ -121,23 +111,6 @@ fn matrices(text: &str) -> Result<Vec<Matrix>, Problem> {
         }
         Some(table) => table.check_complete(last_line).map(|()| tables),
     }
-}
-
-/// The words between separators, with their columns from 1.
-fn words(content: &str) -> impl Iterator<Item = (usize, &str)> {
-    let is_separator = |c: char| c.is_whitespace() || c == ',' || c == ';';
-    let mut rest = content;
-    let mut column = 1;
-    std::iter::from_fn(move || {
-        let word = rest.trim_start_matches(is_separator);
-        column += rest[..rest.len() - word.len()].chars().count();
-        let length = word.find(is_separator).unwrap_or(word.len());
-        let (found, after) = word.split_at(length);
-        let place = column;
-        rest = after;
-        column += found.chars().count();
-        (!found.is_empty()).then_some((place, found))
-    })
 }
 
 /// `double name(rows, columns)`.

@@ -3,15 +3,19 @@
 
 mod c81;
 mod combi;
+#[cfg(test)]
+mod fuzz;
 mod laws;
 mod layers;
 mod polar;
+mod records;
 mod table;
 
 pub use layers::Axis;
 pub use table::{Curve, Table, wrapped};
 
 use laws::{Laws, Line};
+use layers::Layers;
 
 use super::{compressibility::Compressibility, scalar::Scalar, text_file};
 use core::f64::consts::PI;
@@ -114,12 +118,20 @@ impl Airfoil {
         matches!(self.data, Data::Laws(_))
     }
 
-    /// Lowest and highest Reynolds number of the file, if its coefficients depend on it.
-    pub fn reynolds_range(&self) -> Option<(f64, f64)> {
-        match &self.data {
-            Data::Tables { drag, .. } => drag.layers().range(Axis::Reynolds),
-            Data::Laws(laws) => laws.layers().range(Axis::Reynolds),
-        }
+    /// Lowest and highest Reynolds or Mach number of the file, if its coefficients depend on it. A
+    /// single Mach number is none: a rule takes the coefficients to others.
+    pub fn range(&self, axis: Axis) -> Option<(f64, f64)> {
+        let (lift, drag) = match &self.data {
+            Data::Tables { lift, drag } => (lift.layers(), drag.layers()),
+            Data::Laws(laws) => (laws.layers(), laws.layers()),
+        };
+        let counts = |layers: &&Layers| axis == Axis::Reynolds || layers.resolves_mach();
+        let mut ranges = [lift, drag]
+            .into_iter()
+            .filter(counts)
+            .filter_map(|layers| layers.range(axis));
+        let first = ranges.next()?;
+        Some(ranges.fold(first, |a, b| (a.0.max(b.0), a.1.min(b.1))))
     }
 
     /// Lift coefficient at angle of attack `alpha` (rad, any value) of an element with the pitch
@@ -167,7 +179,7 @@ impl Airfoil {
         flow: Similarity<S>,
     ) -> S {
         let drag = self.table_drag(alpha, flow);
-        let Some((lowest, highest)) = self.reynolds_range() else {
+        let Some((lowest, highest)) = self.range(Axis::Reynolds) else {
             return drag;
         };
         let reynolds = flow.reynolds.at_least(LOWEST_CORRECTED_REYNOLDS);
