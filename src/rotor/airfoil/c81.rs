@@ -335,8 +335,7 @@ Test section                   2 4 1 3 1 2
             ("upper case", GOOD.to_uppercase()),
             (
                 "blanks as zeros",
-                GOOD.replace("  10.00   1.10", "  10.00   1.10")
-                    .replace("-180.00   0.00   0.00", "-180.00          0.00"),
+                GOOD.replace("-180.00   0.00   0.00", "-180.00          0.00"),
             ),
             (
                 "a blank angle",

@@ -60,9 +60,10 @@ fn damaged() -> impl Strategy<Value = String> {
     })
 }
 
+type Reader = fn(&str, &str) -> Result<Airfoil, AirfoilError>;
+
 fn check(text: &str) {
-    let readers: [fn(&str, &str) -> Result<Airfoil, AirfoilError>; 3] =
-        [c81::parse, polar::parse, combi::parse];
+    let readers: [Reader; 3] = [c81::parse, polar::parse, combi::parse];
     for reader in readers {
         let Ok(airfoil) = reader(text, "x") else {
             continue;
