@@ -1,12 +1,15 @@
-"""Flies the rotor from hover to an advance ratio of 0.35 at constant thrust, with three inflow models.
+"""Flies the rotor with flapping blades in level flight from hover to an advance ratio of 0.35.
 
-At each speed the collective that keeps the thrust of hover is found by secant steps through the
-FMU, one communication step each: the rotor has no memory, so that every step is an answer.
+At each speed collective and shaft tilt are trimmed, so that the rotor carries the same weight and
+pulls a fuselage's drag, with three inflow models. There is no cyclic pitch: the tip path flaps back
+from the plane of the hub as it likes, and the shaft is tilted forward to make up for it.
 
     python forward_flight.py --fmu HelicopterRotor.fmu --out FOLDER
 
-prints collective, H-force and power against advance ratio, and writes forward-flight.csv and
-forward-flight.png into FOLDER. Blades are rigid and the shaft is upright; forces are means over a turn.
+prints the trim and writes into FOLDER
+
+    forward-flight.csv, .png     forces, power and flapping against advance ratio
+    angle-of-attack.csv, .png    the angle of attack all over the disc at the highest advance ratio
 """
 
 import argparse
@@ -20,19 +23,51 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+import numpy as np
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
 
+# The FMU's default rotor: untwisted blades, hinged at the shaft's axis; sea level.
 RPM = 960.0
-TIP_SPEED = RPM * math.pi / 30.0 * 0.762  # m/s, of the default rotor
-ADVANCE_RATIOS = [0.025 * i for i in range(15)]
-HOVER_PITCH = 8.0  # deg
-STEP = 0.01  # s
-MODELS = {"annulus": "-", "uniform": "--", "drees": ":"}
+RADIUS = 0.762  # m
+CHORD = 0.0508  # m
+CUTOUT = 1.0 / 6.0
+DENSITY = 1.225  # kg/m3
+TIP_SPEED = RPM * math.pi / 30.0 * RADIUS  # m/s
+
+# How heavy the blades are is said by their Lock number, rho a c R^4/I; 8 is usual in helicopters.
+INERTIA = DENSITY * 2.0 * math.pi * CHORD * RADIUS**4 / 8.0  # kg m2
+
+WEIGHT = 60.0  # N; the rotor hovers with it at 7.5 to 8 degrees of collective
+DRAG_AREA = 0.01 * math.pi * RADIUS**2  # m2; a clean helicopter's is about 1 % of the disc area
+
+ADVANCE_RATIOS = [0.0, 0.025, 0.05, 0.075, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35]
+# Inflow model: its marker and line, and the turns after which the rotor has forgotten what was before.
+# (Flapping dies away by exp(-pi/8 * Lock number) in a turn, dynamic inflow more slowly.)
+MODELS = {"uniform": ("o", "", 2), "pittPetersDynamic": ("", "-", 6), "petersHe": ("", ":", 6)}
+DISC_MODEL = "pittPetersDynamic"
+TOLERANCE = 5e-4 * WEIGHT  # N, of the trim
+
+TURN = 60.0 / RPM  # s
+# Outputs of which means over a turn are taken, the forces that are trimmed first.
+MEANS = {
+    "forward": "force[1]",
+    "up": "force[3]",
+    "hub_forward": "hubForce[1]",
+    "thrust": "thrust",
+    "power": "power",
+    "coning": "coning",
+    "a1": "longitudinalFlapping",
+    "b1": "lateralFlapping",
+}
+MEAN_POINTS = 36  # points of a turn over which the pulsating loads are averaged
+AZIMUTH_STEP = 2.0 * math.pi / MEAN_POINTS  # rad; with the default, 3 degrees, means differ by 0.1 %
+DISC_POINTS = 120  # points of the turn that is drawn
+STATIONS = range(1, 21)
 
 
 class Rotor:
-    """The FMU as a function of collective and forward speed, for one inflow model."""
+    """An instance of the FMU with flapping blades and one inflow model."""
 
     def __init__(self, unzipped, description, model):
         self.reference = {v.name: v.valueReference for v in description.modelVariables}
@@ -46,109 +81,268 @@ class Rotor:
         )
         self.slave.instantiate()
         self.slave.setInteger([self.reference["model.inflow"]], [number])
+        self.slave.setBoolean([self.reference["flapping.enabled"]], [True])
+        parameters = [self.reference["flapping.inertia"], self.reference["numerics.azimuthStep"]]
+        self.slave.setReal(parameters, [INERTIA, AZIMUTH_STEP])
         self.slave.setupExperiment(startTime=0.0)
         self.slave.enterInitializationMode()
         self.slave.setReal([self.reference["rpm"]], [RPM])
         self.slave.exitInitializationMode()
         self.time = 0.0
 
-    def fly(self, pitch, speed, names):
-        """The named outputs at a collective in degrees and a forward speed in m/s."""
-        inputs = [self.reference["collective"], self.reference["velocity[1]"]]
-        self.slave.setReal(inputs, [math.radians(pitch), speed])
-        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=STEP)
-        self.time += STEP
-        return self.slave.getReal([self.reference[name] for name in names])
+    def set(self, collective, tilt, speed):
+        """Angles in degrees, forward speed in m/s."""
+        names = ["collective", "tilt", "velocity[1]"]
+        values = [math.radians(collective), math.radians(tilt), speed]
+        self.slave.setReal([self.reference[name] for name in names], values)
 
-    def trim(self, thrust, speed, pitch):
-        """The collective in degrees that gives the thrust (N), from a guess, by the secant method."""
+    def step(self, duration):
+        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=duration)
+        self.time += duration
 
-        def excess(at):
-            return self.fly(at, speed, ["thrust"])[0] - thrust
-
-        before, now = pitch, pitch + 0.5
-        excess_before, excess_now = excess(before), excess(now)
-        for _ in range(20):
-            if abs(excess_now) < 1e-9 * abs(thrust):
-                return now
-            slope = (excess_now - excess_before) / (now - before)
-            before, excess_before = now, excess_now
-            now -= excess_now / slope
-            excess_now = excess(now)
-        raise RuntimeError(f"no collective gives {thrust:.1f} N at {speed:.1f} m/s")
+    def turn(self, names, points):
+        """The named variables (columns) at `points` evenly spaced points of the next turn (rows)."""
+        references = [self.reference[name] for name in names]
+        rows = []
+        for _ in range(points):
+            self.step(TURN / points)
+            rows.append(self.slave.getReal(references))
+        return np.array(rows)
 
     def close(self):
         self.slave.terminate()
         self.slave.freeInstance()
 
 
-def sweep(unzipped, description, model):
-    """Rows of model, mu, collective (deg), H-force (N) and power (W) at the thrust of hover."""
-    rotor = Rotor(unzipped, description, model)
-    pitch = HOVER_PITCH
-    (thrust,) = rotor.fly(pitch, 0.0, ["thrust"])
+class Flight:
+    """A rotor whose collective and tilt are trimmed; what it learns at one speed helps at the next."""
+
+    def __init__(self, rotor, settling):
+        self.rotor = rotor
+        self.settling = settling
+        self.controls = np.array([8.0, 0.0])  # collective and tilt, deg
+        self.slope = None  # of the forces with the controls, N/deg
+        self.before = []  # the two last speeds and their controls
+        self.means = {}  # of the last turn
+
+    def excess(self, controls, speed):
+        """Mean force beyond what level flight needs, forward and up, N."""
+        self.rotor.set(*controls, speed)
+        for _ in range(self.settling):
+            self.rotor.step(TURN)
+        turn = self.rotor.turn(list(MEANS.values()), MEAN_POINTS)
+        self.means = dict(zip(MEANS, turn.mean(axis=0).tolist()))
+        return np.array([self.means["forward"] - drag(speed), self.means["up"] - WEIGHT])
+
+    def trim(self, speed):
+        """Finds collective and tilt by Broyden's method (1965), from a straight line through the last two."""
+        if len(self.before) == 2:
+            (speed_1, controls_1), (speed_2, controls_2) = self.before
+            rise = (controls_2 - controls_1) / (speed_2 - speed_1)
+            self.controls = controls_2 + rise * (speed - speed_2)
+        excess = self.excess(self.controls, speed)
+        if self.slope is None:
+            columns = [self.excess(self.controls + d, speed) - excess for d in np.eye(2)]
+            self.slope = np.array(columns).T
+        for _ in range(30):
+            if np.abs(excess).max() < TOLERANCE:
+                self.before = [*self.before[-1:], (speed, self.controls)]
+                return
+            change = np.linalg.solve(self.slope, -excess)
+            self.controls = self.controls + change
+            excess = self.excess(self.controls, speed)
+            self.slope += np.outer(excess, change) / (change @ change)
+        raise RuntimeError(f"no level flight found at {speed:.1f} m/s")
+
+
+def drag(speed):
+    """Of the fuselage, N."""
+    return 0.5 * DENSITY * speed**2 * DRAG_AREA
+
+
+def fly(flight, model):
+    """Rows of the table, one for each advance ratio: means over a turn, forces in N, angles in deg."""
     for mu in ADVANCE_RATIOS:
         speed = mu * TIP_SPEED
-        pitch = rotor.trim(thrust, speed, pitch)
-        force, power = rotor.fly(pitch, speed, ["hubForce[1]", "power"])
-        yield {"model": model, "mu": mu, "collective": pitch, "H": -force, "power": power}
-    rotor.close()
+        flight.trim(speed)
+        means = flight.means
+        thrust, backward, a1 = means["thrust"], -means["hub_forward"], means["a1"]
+        yield {
+            "model": model,
+            "mu": mu,
+            "collective": flight.controls[0],
+            "tilt": flight.controls[1],
+            "thrust": thrust,
+            "H": backward,
+            # The part of the same force along the tip-path plane, which leans back by a1.
+            "H_tip_path": backward * math.cos(a1) - thrust * math.sin(a1),
+            "power": means["power"],
+            "parasite_power": drag(speed) * speed,
+            "coning": math.degrees(means["coning"]),
+            "a1": math.degrees(a1),
+            "b1": math.degrees(means["b1"]),
+        }
 
 
-def plot(rows, file):
-    """Power, collective and H-force against advance ratio."""
-    figure, axes = plt.subplots(1, 3, figsize=(12, 4.2), constrained_layout=True)
-    labels = {"power": "power, W", "collective": "collective, deg", "H": "H-force, N"}
-    for axis, (name, label) in zip(axes, labels.items()):
-        for model, line in MODELS.items():
-            chosen = [row for row in rows if row["model"] == model]
-            axis.plot(
-                [row["mu"] for row in chosen],
-                [row[name] for row in chosen],
-                line,
-                color="black",
-                label=model,
-            )
-        axis.set_xlabel("advance ratio")
+def disc(rotor):
+    """The advance ratio along the disc, and azimuths (deg), radii (r/R) and angles of attack (deg, a
+    row for each azimuth) of blade 1 over a turn."""
+    mu, *radii = rotor.turn(["advanceRatio"] + [f"station[{k}].radius" for k in STATIONS], 1)[0]
+    names = ["azimuth"] + [f"station[{k}].angleOfAttack" for k in STATIONS]
+    turn = rotor.turn(names, DISC_POINTS)
+    # The azimuth grows without end.
+    azimuths = np.degrees(turn[:, 0]) % 360.0
+    order = np.argsort(azimuths)
+    return mu, azimuths[order], np.array(radii), np.degrees(turn[order, 1:])
+
+
+def plot_sweep(rows, file):
+    """Controls, loads and flapping against advance ratio, a line for each inflow model."""
+    # Columns of the table with colour and factor, and a text and its place where there are several.
+    panels = {
+        "controls, deg": [
+            ("collective", "black", 1.0, ("collective", 0.01, 8.3)),
+            ("tilt", "0.5", 1.0, ("shaft tilt", 0.2, 3.3)),
+        ],
+        "forces, N": [
+            ("thrust", "black", 0.1, ("thrust / 10", 0.01, 6.15)),
+            ("H", "black", 1.0, ("H-force in the\nplane of the hub", 0.06, 2.9)),
+            ("H_tip_path", "0.5", 1.0, ("in the tip-path plane", 0.16, 0.75)),
+        ],
+        "power, W": [
+            ("power", "black", 1.0, ("of the rotor", 0.05, 400.0)),
+            ("parasite_power", "0.5", 1.0, ("drag times speed", 0.1, 105.0)),
+        ],
+        "coning $a_0$, deg": [("coning", "black", 1.0, None)],
+        "longitudinal flapping $a_1$ (back), deg": [("a1", "black", 1.0, None)],
+        "lateral flapping $b_1$ (right), deg": [("b1", "black", 1.0, None)],
+    }
+    figure, axes = plt.subplots(2, 3, figsize=(10.5, 6.4), constrained_layout=True, sharex=True)
+    for axis, (label, curves) in zip(axes.flat, panels.items()):
+        for name, color, factor, text in curves:
+            for model, (marker, line, _) in MODELS.items():
+                chosen = [row for row in rows if row["model"] == model]
+                axis.plot(
+                    [row["mu"] for row in chosen],
+                    [factor * row[name] for row in chosen],
+                    marker=marker,
+                    linestyle=line,
+                    color=color,
+                    markerfacecolor="white",
+                    markersize=5.0,
+                )
+            if text is not None:
+                words, x, y = text
+                axis.text(x, y, words, color=color)
         axis.set_ylabel(label)
-        axis.set_xlim(0, ADVANCE_RATIOS[-1])
+        axis.set_xlim(0.0, 0.37)
+        low, high = axis.get_ylim()
+        axis.set_ylim(min(low, 0.0), 1.1 * high)
         axis.grid(True, color="0.85")
-    axes[0].set_ylim(bottom=0)
-    axes[0].legend(frameon=False, title="inflow model")
-    figure.suptitle("HelicopterRotor.fmu in level forward flight at the thrust of hover, rigid blades")
+    for axis in axes[1]:
+        axis.set_xlabel("advance ratio $V/(\\Omega R)$")
+    lines = axes[1, 0].get_lines()
+    figure.legend(
+        lines, MODELS, loc="outside upper center", ncols=3, frameon=False, title="Inflow model"
+    )
     figure.savefig(file, dpi=130)
     plt.close(figure)
+
+
+def plot_disc(mu, azimuths, radii, alpha, file):
+    """The angle of attack over the disc from above; `mu` is the flow along the disc over the tip speed."""
+    # The turn is closed by its first azimuth, and angles go on below -180 deg, without a jump.
+    psi = np.radians(np.append(azimuths, azimuths[0] + 360.0))[:, None]
+    alpha = np.vstack([alpha, alpha[:1]])
+    alpha = np.where(alpha > 90.0, alpha - 360.0, alpha)
+    x, y = radii * np.sin(psi), -radii * np.cos(psi)
+
+    figure, axis = plt.subplots(figsize=(7.2, 5.9), constrained_layout=True)
+    levels = np.arange(-8.0, 12.1, 2.0)
+    shades = plt.get_cmap("YlGnBu")(np.linspace(0.0, 0.75, len(levels)))
+    filled = axis.contourf(x, y, alpha, levels, colors=shades, extend="min")
+    lines = axis.contour(x, y, alpha, levels[4:], colors="black", linewidths=0.7, linestyles="-")
+    axis.clabel(lines, fmt="%g", fontsize=9)
+    axis.contourf(x, y, alpha, [-270.0, -90.0], colors="white", hatches=["////"])
+    figure.colorbar(filled, ax=axis, shrink=0.75, label="angle of attack, deg")
+
+    turn = np.linspace(0.0, 2.0 * math.pi, 361)
+    for radius in (1.0, CUTOUT):
+        axis.plot(radius * np.sin(turn), radius * np.cos(turn), color="black", linewidth=1.2)
+    half = mu / 2.0
+    axis.plot(half * np.sin(turn) - half, half * np.cos(turn), "--", color="black", linewidth=2.0)
+    axis.annotate(
+        "flow from behind (hatched);\ncircle of diameter $\\mu R$ (dashed)",
+        (-0.8 * mu, -0.3 * mu),
+        (-1.4, -1.2),
+        arrowprops={"arrowstyle": "-"},
+    )
+    axis.text(0.0, -1.05, "tail, $\\psi = 0$", ha="center", va="top")
+    axis.text(1.05, 0.0, "90°\nadvancing", va="center")
+    axis.text(0.0, 1.05, "180°", ha="center", va="bottom")
+    axis.text(-1.05, 0.0, "270°\nretreating", ha="right", va="center")
+    arrow = {"arrowstyle": "-|>", "facecolor": "black"}
+    axis.annotate("flight", (-1.15, 1.15), (-1.15, 0.75), ha="center", arrowprops=arrow)
+    ends = [(1.1 * math.sin(angle), -1.1 * math.cos(angle)) for angle in (0.6, 1.1)]
+    axis.annotate("", *reversed(ends), arrowprops=arrow | {"connectionstyle": "arc3,rad=0.15"})
+    axis.text(0.95, -0.85, "turning\nsense")
+    speed = f"$V/(\\Omega R)$ = {ADVANCE_RATIOS[-1]:g} (along the disc $\\mu$ = {mu:.2f})"
+    axis.set_title(f"Angle of attack from above at {speed}")
+    axis.set_xlim(-1.45, 1.45)
+    axis.set_ylim(-1.22, 1.2)
+    axis.set_aspect("equal")
+    axis.axis("off")
+    figure.savefig(file, dpi=130)
+    plt.close(figure)
+
+
+def write(rows, file):
+    with file.open("w", newline="", encoding="utf-8") as out:
+        writer = csv.DictWriter(out, fieldnames=list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
-    parser.add_argument("--out", type=Path, default=Path("."), help="folder for table and plot")
+    parser.add_argument("--out", type=Path, default=Path("."), help="folder for tables and plots")
     arguments = parser.parse_args()
     if not arguments.fmu.is_file():
         sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
     arguments.out.mkdir(parents=True, exist_ok=True)
 
     rows = []
-    print("model          mu  collective, deg  H-force, N  power, W")
+    print("inflow                mu  collective   tilt  H-force   power  coning     a1     b1")
+    print("                               deg     deg        N       W     deg    deg    deg")
     with tempfile.TemporaryDirectory() as folder:
         unzipped = extract(str(arguments.fmu), unzipdir=folder)
         description = read_model_description(unzipped)
-        for model in MODELS:
-            for row in sweep(unzipped, description, model):
+        for model, (_, _, settling) in MODELS.items():
+            rotor = Rotor(unzipped, description, model)
+            for row in fly(Flight(rotor, settling), model):
                 rows.append(row)
                 print(
-                    f"{model:10s} {row['mu']:6.3f}  {row['collective']:15.3f}"
-                    f"  {row['H']:10.3f}  {row['power']:8.1f}",
+                    f"{model:17s} {row['mu']:6.3f} {row['collective']:11.2f} {row['tilt']:6.2f}"
+                    f" {row['H']:8.2f} {row['power']:7.1f} {row['coning']:7.2f}"
+                    f" {row['a1']:6.2f} {row['b1']:6.2f}",
                     flush=True,
                 )
-    with (arguments.out / "forward-flight.csv").open("w", newline="", encoding="utf-8") as out:
-        writer = csv.DictWriter(out, fieldnames=list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)
-    plot(rows, arguments.out / "forward-flight.png")
-    print(f"Table: {arguments.out / 'forward-flight.csv'}")
-    print(f"Plot:  {arguments.out / 'forward-flight.png'}")
+            if model == DISC_MODEL:
+                picture = disc(rotor)
+            rotor.close()
+    write(rows, arguments.out / "forward-flight.csv")
+    mu, azimuths, radii, alpha = picture
+    points = [
+        {"azimuth": psi, "radius": r, "angle_of_attack": alpha[i, k]}
+        for i, psi in enumerate(azimuths)
+        for k, r in enumerate(radii)
+    ]
+    write(points, arguments.out / "angle-of-attack.csv")
+    plot_sweep(rows, arguments.out / "forward-flight.png")
+    plot_disc(mu, azimuths, radii, alpha, arguments.out / "angle-of-attack.png")
+    for name in ("forward-flight", "angle-of-attack"):
+        print(f"Table and plot: {arguments.out / name}.csv, {name}.png")
 
 
 if __name__ == "__main__":

@@ -64,12 +64,13 @@ fn flight(collective: f64, airspeed: Vector3<f64>) -> Operation {
     }
 }
 
-const INFLOWS: [Inflow; 5] = [
+const INFLOWS: [Inflow; 6] = [
     Inflow::Annulus,
     Inflow::Disc(Skew::Uniform),
     Inflow::Disc(Skew::Howlett),
     Inflow::FiniteBlades,
     Inflow::PittPetersDynamic,
+    Inflow::PetersHe { order: 4 },
 ];
 
 /// Mean of force, moment and torque over a turn of the blades, in a given state.

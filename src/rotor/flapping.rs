@@ -2,8 +2,8 @@
 //!
 //! The blade beyond the hinge at the radius h is a uniform rod, so that its moment of inertia I about the
 //! hinge gives its other moments: with the length l = R - h, the first moment S = 3/2 I/l and the mass m =
-//! 3 I/l^2. Newton's law for its turn about the hinge (Johnson 1980, "Helicopter Theory", ch. 5.2 and
-//! 5.20, here without small angles), with n, X and Z of `disc`, w = (w_r, w_t, W) the angular velocity of
+//! 3 I/l^2. Newton's law for its turn about the hinge (Johnson 1980, "Helicopter Theory", ch. 5, here
+//! without small angles), with n, X and Z of `disc`, w = (w_r, w_t, W) the angular velocity of
 //! the blade's frame, W the rotor's speed against the air and Omega that against the hub:
 //!
 //! ```text

@@ -24,6 +24,9 @@ use nalgebra::Vector3;
 /// To which the thrust coefficient is found on which the end of the lift depends.
 const THRUST_TOLERANCE: f64 = 1e-13;
 
+/// Lean of the tip path beyond which one or two blades count as swinging, rad.
+const LARGEST_LEAN: f64 = 1.0;
+
 /// The rotor's motion in axes turned into the wind, and where its blades are.
 pub(super) struct Scene {
     pub axes: WindAxes,
@@ -209,7 +212,8 @@ impl Rotor {
     ///
     /// From three blades on, the mean of the flap angles and twice their means with cos psi and sin psi (the
     /// multiblade coordinates, Johnson 1980, ch. 8.4). One or two blades say too little: for each, beta =
-    /// a0 - a1 cos psi - b1 sin psi with its first two derivatives gives the cone, and the mean is taken.
+    /// a0 - a1 cos psi - b1 sin psi with its first two derivatives gives the cone, and the mean is taken. Blades
+    /// that swing too fast for that are on no cone: their angle counts as coning.
     fn tip_path(
         &self,
         operation: &Operation,
@@ -229,7 +233,7 @@ impl Rotor {
             let psi = state.azimuth + 2.0 * PI * k as f64 / count;
             let (sin, cos) = (libm::sin(psi), libm::cos(psi));
             let Flap { angle, rate } = place.flap;
-            let (coning, longitudinal, lateral) = if count > 2.0 || operation.speed == 0.0 {
+            let (coning, longitudinal, lateral) = if count > 2.0 {
                 (angle, -2.0 * angle * cos, -2.0 * angle * sin)
             } else {
                 let action = self.action(operation, scene, sums.hinge_moments[k]);
@@ -237,11 +241,16 @@ impl Rotor {
                 let second = freedom.acceleration(hinge, &scene.flow, place, &action)
                     / (operation.speed * operation.speed);
                 let first = rate / operation.speed;
-                (
-                    angle + second,
-                    second * cos + first * sin,
-                    second * sin - first * cos,
-                )
+                // Not so where the rotor stands still, either.
+                if libm::hypot(first, second) < LARGEST_LEAN {
+                    (
+                        angle + second,
+                        second * cos + first * sin,
+                        second * sin - first * cos,
+                    )
+                } else {
+                    (angle, 0.0, 0.0)
+                }
             };
             path.coning += coning / count;
             path.longitudinal += longitudinal / count;
@@ -285,8 +294,13 @@ impl Rotor {
             at,
             residual: surplus(at),
         };
-        // At the largest coefficient no lift is left.
-        let ends = (end(0.0), end(blades * blades));
+        // With no lift lost the thrust is largest. At the largest coefficient no lift is left.
+        let first = end(0.0);
+        let mut last = end(first.residual.clamp(0.0, blades * blades));
+        if last.residual > 0.0 {
+            last = end(blades * blades);
+        }
+        let ends = (first, last);
         let solved = if ends.0.residual <= 0.0 {
             Ok(0.0)
         } else if ends.1.residual >= 0.0 {
@@ -422,7 +436,7 @@ impl Rotor {
                                 swirl: 0.0,
                             })
                         })?;
-                        turn.induced
+                        turn.mean_induced
                     }
                     _ => {
                         let answer = annulus::solve(&element, flow, places).map_err(unsolved)?;

@@ -179,7 +179,8 @@ impl Rotor {
                         .iter()
                         .map(|r| r / geometry.radius)
                         .collect();
-                    Some(peters_he::Wake::new(order, &ratios))
+                    let blades = geometry.blades as usize;
+                    Some(peters_he::Wake::of_blades(order, blades, &ratios))
                 }
                 _ => None,
             },

@@ -11,6 +11,15 @@ const HALVINGS: u32 = 10;
 /// Difference for the slopes.
 const SMALL: f64 = 1e-7;
 
+/// What a residual is computed for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Use {
+    /// Its value, which vanishes at the solution.
+    Value,
+    /// Differences of two of them: an approximation will do if it is smooth and cheap.
+    Slopes,
+}
+
 /// Where `residual` is 0, from `start`; none if that is not found within the method's bounds. All unknowns and
 /// residuals are of order 1.
 ///
@@ -20,11 +29,11 @@ const SMALL: f64 = 1e-7;
 pub fn solve<E>(
     start: DVector<f64>,
     tolerance: f64,
-    mut residual: impl FnMut(&DVector<f64>) -> Result<DVector<f64>, E>,
+    mut residual: impl FnMut(&DVector<f64>, Use) -> Result<DVector<f64>, E>,
 ) -> Result<Option<DVector<f64>>, E> {
     let count = start.len();
     let mut at = start;
-    let mut value = residual(&at)?;
+    let mut value = residual(&at, Use::Value)?;
     for _ in 0..MATRICES {
         if !value.norm().is_finite() {
             return Ok(None);
@@ -32,11 +41,12 @@ pub fn solve<E>(
         if value.norm() == 0.0 {
             return Ok(Some(at));
         }
+        let base = residual(&at, Use::Slopes)?;
         let mut slopes = DMatrix::zeros(count, count);
         for i in 0..count {
             let mut other = at.clone();
             other[i] += SMALL;
-            slopes.set_column(i, &((residual(&other)? - &value) / SMALL));
+            slopes.set_column(i, &((residual(&other, Use::Slopes)? - &base) / SMALL));
         }
         for _ in 0..STEPS {
             let Some(step) = slopes.clone().lu().solve(&-&value) else {
@@ -50,7 +60,7 @@ pub fn solve<E>(
             let mut next = (&at + &step, DVector::zeros(0));
             for halving in 0..=HALVINGS {
                 next.0 = &at + &step * part;
-                next.1 = residual(&next.0)?;
+                next.1 = residual(&next.0, Use::Value)?;
                 if next.1.norm() < before || halving == HALVINGS {
                     break;
                 }

@@ -21,6 +21,10 @@ pub enum Start {
 /// To which states in their own measures are found.
 const TOLERANCE: f64 = 1e-10;
 
+/// Step, rad, that is short enough for the slopes with which Newton's method finds the periodic state: the third
+/// order leaves them an error of some 1e-4. What it finds is that of the steps in flight.
+const STEP_FOR_SLOPES: f64 = PI / 12.0;
+
 /// Most steps from blade to blade for which flapping is found that repeats itself; blades of rotors that
 /// turn more slowly start from rest.
 const MOST_STEPS: f64 = 3000.0;
@@ -102,7 +106,7 @@ impl Rotor {
         let start = DVector::from_iterator(count, state.inflow[..count].iter().map(|v| v / speed));
         let per_rate = radius / (speed * speed);
         let mut at = state;
-        let found = newton::solve(start, TOLERANCE, |x| {
+        let found = newton::solve(start, TOLERANCE, |x, _| {
             set_scaled(&mut at.inflow, x.as_slice(), speed);
             let rates = self.rates(operation, &at)?;
             let scaled = rates.inflow[..count].iter().map(|r| r * per_rate);
@@ -114,18 +118,25 @@ impl Rotor {
     }
 
     /// The state that repeats itself from blade to blade: after the time in which each blade comes to where
-    /// the next one was, its flapping is that of the next one and the inflow is the same. (Periodic
-    /// shooting, as for limit cycles: Seydel 2010, "Practical Bifurcation and Stability Analysis", ch. 7.)
+    /// the next one was, its flapping is that of the next one and the inflow is the same; of a rotor
+    /// that does not turn, `start`. (Periodic shooting, as for limit cycles: Seydel 2010, "Practical Bifurcation and Stability Analysis", ch. 7.)
     fn periodic(
         &mut self,
         operation: &Operation,
         start: State,
         azimuth_step: f64,
     ) -> Result<State, SolveError> {
+        if operation.speed == 0.0 {
+            return Ok(start);
+        }
         let blades = self.geometry.blades as usize;
         let passage = 2.0 * PI / (blades as f64 * operation.speed);
-        let cells = libm::ceil(passage * operation.speed / azimuth_step * (1.0 - 1e-9)).max(1.0);
-        let steps = cells * self.steps(operation, &start, passage / cells);
+        let steps = |longest: f64| {
+            let cells = libm::ceil(passage * operation.speed / longest * (1.0 - 1e-9)).max(1.0);
+            cells * self.steps(operation, &start, passage / cells)
+        };
+        let steps_for_slopes = steps(azimuth_step.max(STEP_FOR_SLOPES));
+        let steps = steps(azimuth_step);
         if steps.is_nan() || steps > MOST_STEPS {
             return Ok(start);
         }
@@ -140,9 +151,12 @@ impl Rotor {
             speed: operation.speed * self.geometry.radius,
             rotation: operation.speed,
         };
-        let found = newton::solve(scale.unknowns(&start), TOLERANCE, |x| {
-            let begin = scale.state(x);
-            let mut state = begin;
+        let passed = |x: &DVector<f64>, purpose| -> Result<DVector<f64>, SolveError> {
+            let steps = match purpose {
+                newton::Use::Value => steps,
+                newton::Use::Slopes => steps_for_slopes,
+            };
+            let mut state = scale.state(x);
             for _ in 0..steps as u32 {
                 state = self.step(operation, &state, passage / steps)?;
             }
@@ -150,7 +164,8 @@ impl Rotor {
                 state.flaps[..flapping].rotate_right(1);
             }
             Ok(scale.unknowns(&state) - x)
-        })?;
+        };
+        let found = newton::solve(scale.unknowns(&start), TOLERANCE, passed)?;
         let found = found.ok_or(SolveError::NoSteadyState)?;
         Ok(scale.state(&found))
     }

@@ -61,8 +61,8 @@ pub struct Turn<'a> {
     pub thrust_at: [f64; AZIMUTHS],
     pub hinge_moment_at: [f64; AZIMUTHS],
     load: Load,
-    /// Mean of the axial induced velocity over all places, m/s.
-    pub induced: f64,
+    /// Mean of the axial induced velocity over all places and around the annulus, tip loss taken off, m/s.
+    pub mean_induced: f64,
 }
 
 impl<'a> Turn<'a> {
@@ -84,7 +84,7 @@ impl<'a> Turn<'a> {
             thrust_at: [0.0; AZIMUTHS],
             hinge_moment_at: [0.0; AZIMUTHS],
             load: Load::default(),
-            induced: 0.0,
+            mean_induced: 0.0,
         }
     }
 
@@ -139,7 +139,12 @@ impl<'a> Turn<'a> {
         );
         self.thrust_at[place] = load.normal * meets.flap_cos;
         self.hinge_moment_at[place] = load.normal * meets.outboard;
-        self.induced += share * induced;
+        let sin_inflow = if load.speed > 0.0 {
+            (meets.through + meets.flap_cos * induced) / load.speed
+        } else {
+            0.0
+        };
+        self.mean_induced += share * induced * self.element.tip_loss_factor(sin_inflow);
         if self.element.is_stalled(load) {
             self.stalled += share;
         }

@@ -31,7 +31,7 @@ use crate::rotor::{
     root::RootError,
 };
 
-/// The velocity that a blade's element induces, along the blade's normal, m/s.
+/// The velocity v that a blade's element induces along the shaft, m/s.
 ///
 /// `flow`: of the disc, of which the rotor speed and the speed along the disc count here.
 pub fn velocity(element: &Element, meets: &Encounter, flow: &DiscFlow) -> Result<f64, RootError> {
@@ -44,14 +44,14 @@ pub fn velocity(element: &Element, meets: &Encounter, flow: &DiscFlow) -> Result
     let factor = element.blades * flow.rotation.abs() * element.chord * forward
         / (4.0 * core::f64::consts::PI);
     let momentum = |v: f64| {
-        let through = meets.through + v;
+        let through = meets.through + meets.flap_cos * v;
         let speed = libm::hypot(meets.in_plane, through);
         if speed == 0.0 {
             return 0.0;
         }
         let alpha = pitch - libm::atan2(through, meets.in_plane);
         let lift = element.lift_coefficient(alpha, speed);
-        factor * speed * lift / element.tip_loss_factor(through / speed)
+        factor * speed * lift * meets.flap_cos / element.tip_loss_factor(through / speed)
     };
     uniform::mean_velocity(flow.edgewise, meets.through, scale, momentum)
 }
