@@ -51,9 +51,10 @@ def read_polar(path):
 def laws(reynolds, rows):
     """Slopes A and C (1/rad), stall angle (rad), drag coefficients d0, d1, ... (alpha in rad).
 
-    A: the chord from 0 to 3 deg. C: from the end of A to stall, by least squares at the polar's rows. Stall:
-    the first peak of lift. Drag: least squares of the relative error at the polar's rows from 0 to stall.
-    Also returns the largest error of lift along A and C, and the largest relative error of drag.
+    A: the chord from 0 to 3 deg. C: from the end of A to stall, by least squares at the polar's
+    rows. Stall: the first peak of lift. Drag: least squares of the relative error at the polar's
+    rows from 0 to stall. Also returns the largest error of lift along A and C, and the largest
+    relative error of drag.
     """
     where = f"The block at Re {reynolds:.0f}"
     if np.abs(rows[:, 1] + rows[::-1, 1]).max() > SYMMETRY:
@@ -103,17 +104,18 @@ def render(polar):
         [
             "#1",
             f"# {name}: lift slopes, stall angles and drag polynomials. Made by",
-            f"# airfoil-tables/make_slopes.py from {polar}; do not edit. For symmetric use: cl odd, cd even.",
-            "# Layout after Lovaco Hernandez (2017), LIU-IEI-TEK-A--17/02958-SE, sections 3.5.1 to 3.5.3, whose own",
-            "# numbers were not at hand: none of them is in this file.",
-            "# Column 1: Reynolds number. 2: slope A, 1/rad, the chord of cl from 0 to 3 deg. 3: slope C, 1/rad, from",
-            f"# the end of A to stall by least squares; cl along A and C is {lift_error:.2f} off at most. 4: stall",
-            "# angle, rad, the first peak of cl. From 5 on: drag",
-            "# cd = d0 + d1 a + d2 a^2 + ..., a = |alpha| in rad, from 0 to stall; least squares of the relative",
-            f"# error, which is {100 * error:.1f} % at most.",
-            f"# The first row repeats the laws of Re {first[0]:.0f} at {LOWEST_REYNOLDS:.0f}, the last those of Re"
-            f" {last[0]:.0f} at {HIGHEST_REYNOLDS:.0f}:",
-            "# the polar has no Reynolds numbers beyond, and the nearest holds.",
+            f"# airfoil-tables/make_slopes.py from {polar}; do not edit.",
+            "# For symmetric use: cl odd, cd even.",
+            "# Layout after Lovaco Hernandez (2017), LIU-IEI-TEK-A--17/02958-SE, sections 3.5.1 to",
+            "# 3.5.3, whose own numbers were not at hand: none of them is in this file.",
+            "# Column 1: Reynolds number. 2: slope A, 1/rad, the chord of cl from 0 to 3 deg. 3: slope",
+            "# C, 1/rad, from the end of A to stall by least squares; cl along A and C is at most",
+            f"# {lift_error:.2f} off. 4: stall angle, rad, the first peak of cl. From 5 on: drag",
+            "# cd = d0 + d1 a + d2 a^2 + ..., a = |alpha| in rad, from 0 to stall; least squares of the",
+            f"# relative error, which is {100 * error:.1f} % at most.",
+            f"# The first row repeats the laws of Re {first[0]:.0f} at {LOWEST_REYNOLDS:.0f}, the last",
+            f"# those of Re {last[0]:.0f} at {HIGHEST_REYNOLDS:.0f}: the polar has no Reynolds numbers",
+            "# beyond, and the nearest holds.",
             f"double {table}({len(rows)}, {DEGREE + 5})",
             f"#{titles[1:]}",
             *rows,
@@ -123,7 +125,7 @@ def render(polar):
 
 
 def main():
-    parser = argparse.ArgumentParser(description="Make lift slopes, stall angles and drag polynomials.")
+    parser = argparse.ArgumentParser(description="Make lift slopes and drag polynomials.")
     parser.add_argument(
         "--check",
         action="store_true",

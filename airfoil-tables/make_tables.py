@@ -319,6 +319,7 @@ def naca0012_file():
         progress(f"  Re {reynolds:.0f}")
         blocks.append(computed_block(reynolds, "naca0012"))
     block = blocks[REYNOLDS.index(2e6)]
+    slope = lift_slope(block.alpha, block.cl)
     peak = float(block.cl[block.alpha == block.match - PAST_STALL_DEG][0])
     header = f"""
 NACA 0012, computed. Made by airfoil-tables/make_tables.py; do not edit.
@@ -326,7 +327,7 @@ Method: NeuralFoil {version("neuralfoil")} (P. Sharpe), model size {MODEL_SIZE},
 free transition with n_crit {N_CRIT:.0f} (free-stream turbulence about 2 % by Mack's relation),
 computed for alpha >= 0 and mirrored. n_crit is assumed: it is that of naca0015.polar, chosen there
 by comparison with measurements; this table is compared with none.
-Re 2,000,000: lift slope over +-4 deg {lift_slope(block.alpha, block.cl):.2f} per rad, cd {block.cd[0]:.5f} at 0 deg,
+Re 2,000,000: lift slope over +-4 deg {slope:.2f} per rad, cd {block.cd[0]:.5f} at 0 deg,
 first peak of cl {peak:.2f}.
 Match angle: {PAST_STALL_DEG:.0f} deg beyond the first maximum of cl; NeuralFoil's own confidence is
 at least {LOWEST_CONFIDENCE} up to there.

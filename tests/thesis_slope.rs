@@ -3,7 +3,7 @@
 use helicopter_rotor::block::{
     RotorBlock,
     variables::{
-        CompressibilityModel, InflowModel, LiftModel, TipLossModel, integer, real, string,
+        CompressibilityModel, INTEGERS, InflowModel, LiftModel, TipLossModel, integer, real, string,
     },
 };
 use std::{fs, path::PathBuf};
@@ -39,6 +39,7 @@ fn set(block: &mut RotorBlock, place: usize, value: f64) {
     block.set_reals(&[place as u32], &[value]).unwrap();
 }
 
+/// Parameters and their values.
 const LIFT: (usize, i32) = (integer::MODEL__LIFT, LiftModel::ThesisSlope as i32);
 const INCOMPRESSIBLE: (usize, i32) = (
     integer::MODEL__COMPRESSIBILITY,
