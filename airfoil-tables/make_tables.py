@@ -170,10 +170,10 @@ def carried_on(reynolds, alpha, cl, cd, confidence):
     return extend(reynolds, alpha[: last + 1], cl[: last + 1], cd[: last + 1])
 
 
-def computed_block(reynolds):
-    """NACA 0015 by NeuralFoil."""
+def computed_block(reynolds, airfoil="naca0015"):
+    """A symmetric section by NeuralFoil."""
     alpha = np.arange(0, 30 + STEP_DEG, STEP_DEG)
-    cl, cd, confidence = neuralfoil_polar(alpha, reynolds, N_CRIT)
+    cl, cd, confidence = neuralfoil_polar(alpha, reynolds, N_CRIT, airfoil=airfoil)
     cl[0] = 0.0
     return carried_on(reynolds, alpha, cl, cd, confidence)
 
@@ -312,6 +312,30 @@ at least {LOWEST_CONFIDENCE} up to there.
     return render("NACA 0015, NeuralFoil", header, blocks)
 
 
+def naca0012_file():
+    """naca0012.polar"""
+    blocks = []
+    for reynolds in REYNOLDS:
+        progress(f"  Re {reynolds:.0f}")
+        blocks.append(computed_block(reynolds, "naca0012"))
+    block = blocks[REYNOLDS.index(2e6)]
+    slope = lift_slope(block.alpha, block.cl)
+    peak = float(block.cl[block.alpha == block.match - PAST_STALL_DEG][0])
+    header = f"""
+NACA 0012, computed. Made by airfoil-tables/make_tables.py; do not edit.
+Method: NeuralFoil {version("neuralfoil")} (P. Sharpe), model size {MODEL_SIZE}, Mach 0,
+free transition with n_crit {N_CRIT:.0f} (free-stream turbulence about 2 % by Mack's relation),
+computed for alpha >= 0 and mirrored. n_crit is assumed: it is that of naca0015.polar, chosen there
+by comparison with measurements; this table is compared with none.
+Re 2,000,000: lift slope over +-4 deg {slope:.2f} per rad, cd {block.cd[0]:.5f} at 0 deg,
+first peak of cl {peak:.2f}.
+Match angle: {PAST_STALL_DEG:.0f} deg beyond the first maximum of cl; NeuralFoil's own confidence is
+at least {LOWEST_CONFIDENCE} up to there.
+{POST_STALL}
+"""
+    return render("NACA 0012, NeuralFoil", header, blocks)
+
+
 def goettingen_numbers(block):
     """A sentence on lift slope, zero lift, drag and largest lift of a block."""
     other = block.upside_down
@@ -391,6 +415,7 @@ Re 2e5 and 1e6 drag depends on roughness and turbulence and may differ by a fact
 FILES = {
     "naca0015-knight-hefner.polar": knight_hefner_file,
     "naca0015.polar": computed_file,
+    "naca0012.polar": naca0012_file,
     "goettingen429.polar": goettingen_file,
     "wheatley-1934.polar": wheatley_file,
     "circle.polar": circle_file,

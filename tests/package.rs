@@ -52,10 +52,15 @@ fn the_archive_holds_what_an_importer_and_a_reader_expect() {
         "model.png",
         "resources/airfoils/naca0015-knight-hefner.polar",
         "resources/airfoils/naca0015.polar",
+        "resources/airfoils/naca0015.txt",
+        "resources/airfoils/naca0012.polar",
         "resources/airfoils/goettingen429.polar",
         "resources/airfoils/wheatley-1934.polar",
         "resources/rotors/knight-hefner-3.toml",
         "resources/rotors/pca-2.toml",
+        "resources/rotors/castles-gray-6ft.toml",
+        "resources/rotors/caradonna-tung.toml",
+        "resources/rotors/thesis.toml",
     ] {
         assert!(
             files.get(name).is_some_and(|f| !f.is_empty()),

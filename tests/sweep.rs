@@ -12,7 +12,7 @@
 use helicopter_rotor::{
     block::{
         BlockError, RotorBlock, SetupError,
-        variables::{BOOLEANS, INTEGERS, REALS, boolean, integer, real},
+        variables::{BOOLEANS, INTEGERS, REALS, boolean, integer, real, string},
     },
     rotor::SolveError,
 };
@@ -306,14 +306,16 @@ impl Sweep {
     /// Whether the parameters are documented to be refused: blades that flap as a mean over a turn or in
     /// the closed form.
     fn expected_refusal(&self, run: &Run) -> bool {
-        let has = |name: &str, value: &str| {
-            let mut values = self.choices.iter().zip(&run.values);
-            values.any(|(c, v)| c.is(name) && c.value_name(*v) == value)
-        };
+        let has = |name: &str, value: &str| self.has(run, name, value);
         let flaps = has(BOOLEANS[boolean::FLAPPING__ENABLED].name, "true");
         let closed = has("model.inflow", "annulusClosedForm");
         flaps && (has("model.blades", "disc") || closed)
             || closed && !has("model.groundEffect", "none")
+    }
+
+    fn has(&self, run: &Run, name: &str, value: &str) -> bool {
+        let mut values = self.choices.iter().zip(&run.values);
+        values.any(|(c, v)| c.is(name) && c.value_name(*v) == value)
     }
 
     /// Starts, steps, changes collective and rotor speed, steps again.
@@ -321,6 +323,10 @@ impl Sweep {
         let mut block = block();
         for (choice, value) in self.choices.iter().zip(&run.values) {
             choice.set(&mut block, *value);
+        }
+        if self.has(run, "model.lift", "thesisSlope") {
+            let place = string::AIRFOIL__FILE as u32;
+            block.set_strings(&[place], &["naca0015.txt"]).unwrap();
         }
         let [
             advance,

@@ -1,6 +1,7 @@
 //! The rotor as a block of named variables: which variable feeds which quantity of the physics.
 //! Neutral of the FMI version.
 
+mod coverage;
 mod integrate;
 mod location;
 mod setup;
@@ -17,6 +18,7 @@ use crate::rotor::{
     air::{Air, STANDARD_GRAVITY},
 };
 use core::f64::consts::{PI, SQRT_2};
+use coverage::Coverage;
 use integrate::Memory;
 use nalgebra::{Matrix3, Vector3};
 use std::path::PathBuf;
@@ -50,8 +52,9 @@ pub struct RotorBlock {
     memory: Memory,
     /// Whether the outputs belong to the present inputs and parameters.
     current: bool,
-    /// What was read from which file since the last call of `take_notes`.
+    /// What is worth a line in the log since the last call of `take_notes`.
     notes: Vec<String>,
+    coverage: Coverage,
 }
 
 impl RotorBlock {
@@ -65,6 +68,7 @@ impl RotorBlock {
             memory: Memory::default(),
             current: false,
             notes: Vec::new(),
+            coverage: Coverage::default(),
         }
     }
 
@@ -124,7 +128,8 @@ impl RotorBlock {
         Ok(())
     }
 
-    /// What was read from which file since the last call.
+    /// What was read from which file, and whether the flow went beyond what was read, since the last
+    /// call.
     pub fn take_notes(&mut self) -> Vec<String> {
         std::mem::take(&mut self.notes)
     }
@@ -188,6 +193,7 @@ impl RotorBlock {
             None => {
                 let (rotor, notes) = setup::rotor(&self.values, &self.resources)?;
                 self.notes.extend(notes);
+                self.coverage = Coverage::default();
                 rotor
             }
         };
@@ -230,6 +236,9 @@ impl RotorBlock {
         self.values.integers[integer::FLOW_STATE] = flow_state as i32;
         self.memory = memory;
         self.current = true;
+        let rotor = self.rotor.as_ref();
+        let note = rotor.and_then(|rotor| self.coverage.note(rotor));
+        self.notes.extend(note);
         Ok(())
     }
 }

@@ -32,6 +32,13 @@ pub enum SetupError {
         airfoil: String,
         cause: AirfoilError,
     },
+    #[error(
+        "model.lift = thesisSlope, but the airfoil file {airfoil:?} ({parameter}) has no lift slopes; set {parameter} to a Modelica CombiTable file such as airfoils/naca0015.txt, or model.lift to table or twoPi"
+    )]
+    NoLaws {
+        airfoil: String,
+        parameter: &'static str,
+    },
     #[error("geometry.file = {name:?}: {cause}")]
     RotorFile { name: String, cause: RotorFileError },
     #[error("the geometry parameters make no rotor: {0}; change them or set geometry.file")]
@@ -61,6 +68,7 @@ pub fn rotor(values: &Values, resources: &Path) -> Result<(Rotor, Vec<String>), 
     let mut notes = Vec::new();
     let geometry = shape(values, resources, &mut notes)?;
     let standard = values.strings[string::AIRFOIL__FILE].as_str();
+    let lift = choice(values, integer::MODEL__LIFT, LiftModel::from_integer)?;
     let mut airfoils = Vec::with_capacity(geometry.airfoils.len());
     for station_airfoil in &geometry.airfoils {
         let own = !station_airfoil.is_empty();
@@ -80,6 +88,16 @@ pub fn rotor(values: &Values, resources: &Path) -> Result<(Rotor, Vec<String>), 
                 }
             }
         })?;
+        if lift == LiftModel::ThesisSlope && !airfoil.has_laws() {
+            return Err(SetupError::NoLaws {
+                airfoil: name.to_owned(),
+                parameter: if own {
+                    "a station's airfoil in geometry.file"
+                } else {
+                    "airfoil.file"
+                },
+            });
+        }
         notes.push(format!(
             "read airfoil {:?} from {}",
             airfoil.name(),
@@ -217,6 +235,7 @@ fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
             lift: match choice(values, integer::MODEL__LIFT, LiftModel::from_integer)? {
                 LiftModel::Table => Lift::Table,
                 LiftModel::TwoPi => Lift::TwoPi,
+                LiftModel::ThesisSlope => Lift::ThesisSlope,
             },
             compressibility: match choice(
                 values,

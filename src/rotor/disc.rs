@@ -197,8 +197,8 @@ impl DiscFlow {
     }
 
     /// What a section at `radius` (m, along the blade) meets: thesis eqs. (101) and (102) with the angular
-    /// velocity of the hub and without small angles. The velocity of the section, V + w x (X e_r + Z e_z)
-    /// + beta' s n, along e_t and against n. U_R of eq. (103), along the blade, has no effect on a section
+    /// velocity of the hub and without small angles. The velocity of the section, V + w x (X e_r + Z e_z) +
+    /// beta' s n, along e_t and against n. U_R of eq. (103), along the blade, has no effect on a section
     /// (independence principle) and is left out; so is the sideslip's effect on drag and stall.
     pub fn meets(&self, radius: f64, place: &Place) -> Encounter {
         let Azimuth { sin, cos } = place.azimuth;

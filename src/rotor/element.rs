@@ -87,7 +87,7 @@ impl Element<'_> {
     pub fn lift_coefficient<S: Scalar>(&self, alpha: S, speed: S) -> S {
         let flow = self.similarity(speed);
         self.section
-            .mixed(|airfoil| airfoil.lift_coefficient(self.model, alpha, flow))
+            .mixed(|airfoil| airfoil.lift_coefficient(self.model, self.pitch, alpha, flow))
             * self.lifting_share
     }
 

@@ -7,6 +7,7 @@
 pub mod air;
 pub mod airfoil;
 pub mod compressibility;
+pub mod coverage;
 pub mod disc;
 pub mod element;
 pub mod flapping;

@@ -233,11 +233,13 @@ fn change_everything(instance: &Instance) {
         let status = instance.set_boolean(v.name, i32::from(!v.start));
         assert_eq!(status, c::OK, "{}", v.name);
     }
-    assert_eq!(
-        instance.set_string("geometry.file", "knight-hefner-3.toml"),
-        c::OK
-    );
-    assert_eq!(instance.set_string("airfoil.file", "naca0015.polar"), c::OK);
+    // The last choice of model.lift needs a file of lift slopes.
+    for (name, file) in [
+        ("geometry.file", "thesis.toml"),
+        ("airfoil.file", "naca0015.txt"),
+    ] {
+        assert_eq!(instance.set_string(name, file), c::OK);
+    }
 }
 
 /// All variables, outputs as well, in Initialization Mode; inputs and parameters must be at their

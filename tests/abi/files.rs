@@ -171,6 +171,51 @@ fn malformed_c81_files_are_refused_with_the_place() {
     instance.initialize();
 }
 
+const COMBI: &str = "#1\ndouble airfoil(1, 7)\n1e5 6 4 0.2 0.01 0 0.5\n";
+
+#[test]
+fn malformed_combi_tables_are_refused_with_the_place() {
+    let all_bytes: Vec<u8> = [b"#1\n".to_vec(), (0..=255).collect()].concat();
+    for (name, content, part) in [
+        ("empty.txt", &b""[..], "line 1"),
+        ("only.txt", b"#1", "has no table"),
+        ("bytes.txt", &all_bytes, "text"),
+        (
+            "truncated.txt",
+            &COMBI.as_bytes()[..COMBI.len() - 5],
+            "ends after 6 numbers",
+        ),
+        (
+            "size.txt",
+            COMBI.replace("1, 7", "2, 7").as_bytes(),
+            "ends after 7 numbers",
+        ),
+        (
+            "nan.txt",
+            COMBI.replace(" 6 ", " nan ").as_bytes(),
+            "line 3, column 5",
+        ),
+        (
+            "degrees.txt",
+            COMBI.replace("0.2", "12").as_bytes(),
+            "angles are in rad",
+        ),
+        (
+            "columns.txt",
+            COMBI.replace("1, 7", "7, 1").as_bytes(),
+            "5 to 11 columns",
+        ),
+    ] {
+        refused("airfoil.file", &written(name, content), &[name, part]);
+    }
+    let instance = Instance::new();
+    assert_eq!(
+        instance.set_string("airfoil.file", &written("good.txt", COMBI.as_bytes())),
+        c::OK
+    );
+    instance.initialize();
+}
+
 #[test]
 fn malformed_rotor_files_are_refused_with_the_place() {
     let good = "numberOfBlades = 2\nradius = 1.0\nstation = [\n\
@@ -270,6 +315,16 @@ fn absurd_numbers_in_files_never_give_results_that_are_not_finite() {
             "airfoil.file",
             "both-absurd.polar",
             polar("-1e308", "1e308", "1e5"),
+        ),
+        (
+            "airfoil.file",
+            "combi-absurd.txt",
+            COMBI.replace("0.01 0 0.5", "1e300 0 1e307"),
+        ),
+        (
+            "airfoil.file",
+            "combi-steep.txt",
+            COMBI.replace("6 4 0.2", "20 0 1e-300"),
         ),
         (
             "airfoil.file",

@@ -74,6 +74,65 @@ fn with_logging_on_the_log_says_which_files_were_read() {
     }
 }
 
+/// The lines that say that the flow goes beyond an airfoil file.
+fn beyond(instance: &Instance) -> Vec<String> {
+    let lines = instance.take_log().into_iter();
+    let lines = lines.filter(|line| line.message.contains("said once"));
+    lines
+        .map(|line| {
+            assert_eq!((line.status, line.category.as_str()), (c::OK, "logEvents"));
+            line.message
+        })
+        .collect()
+}
+
+#[test]
+fn flow_beyond_the_numbers_of_an_airfoil_file_is_logged_once_for_each_instance() {
+    // A file with one Reynolds number, which hardly any element meets.
+    let instance = with_logging();
+    clean_run(&instance);
+    let lines = beyond(&instance);
+    assert_eq!(lines.len(), 1, "{lines:?}");
+    for part in [
+        "Reynolds numbers",
+        "242000 in the airfoil file",
+        "Knight & Hefner",
+    ] {
+        assert!(lines[0].contains(part), "{lines:?}");
+    }
+
+    // Within at first, beyond in a step.
+    let instance = with_logging();
+    assert_eq!(instance.set_string("airfoil.file", "naca0015.polar"), c::OK);
+    instance.initialize();
+    assert_eq!(beyond(&instance), [""; 0]);
+    for (i, rpm) in [960.0, 100.0, 960.0, 50.0, 0.0].into_iter().enumerate() {
+        assert_eq!(instance.set_real("rpm", rpm), c::OK);
+        assert_eq!(instance.step(0.1 * i as f64, 0.1), c::OK);
+        let expected = usize::from(rpm == 100.0);
+        assert_eq!(beyond(&instance).len(), expected, "at {rpm} rpm");
+    }
+
+    // Another instance says it again, and Mach numbers count by themselves.
+    let file = crate::support::fmu::scratch().join("two-mach-numbers.c81");
+    let table = |values: &str| format!("0.2 0.3\n-180 {values}\n180 {values}\n");
+    let text = format!("two 2 2 2 2\n{}{}", table("0 0"), table("0.01 0.02"));
+    std::fs::write(&file, text).unwrap();
+    let instance = with_logging();
+    assert_eq!(
+        instance.set_string("airfoil.file", file.to_str().unwrap()),
+        c::OK
+    );
+    instance.initialize();
+    let lines = beyond(&instance);
+    assert!(
+        lines.len() == 1
+            && lines[0].starts_with("Mach numbers 0.0")
+            && lines[0].contains("0.200 to 0.300"),
+        "{lines:?}"
+    );
+}
+
 #[test]
 fn errors_are_logged_also_while_logging_is_off() {
     let instance = Instance::new();

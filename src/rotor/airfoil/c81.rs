@@ -9,157 +9,176 @@
 //! ```
 //!
 //! Angles run from -180 to 180 deg; the values at the two ends need not agree, as they do not in many
-//! a published table. The moment table is not used and need not be complete.
+//! a published table. The moment table is not used and need not be complete or there.
+//!
+//! Files that people have edited: a line that does not keep to the columns is read as free numbers (see
+//! `records`); the counts may follow the name anywhere in the first line, six or, without a
+//! moment table, four; blank lines do not count.
 
-use super::{Airfoil, AirfoilError, Axis, Curve, Table};
+use super::{
+    Airfoil, AirfoilError, Axis, Curve, Data, Table,
+    records::{Layout, Problem, Records, words},
+};
 
-const WIDTH: usize = 7;
-const VALUES_PER_LINE: usize = 9;
+/// Where the counts begin, and how many of them are needed.
+const COUNTS_COLUMN: usize = 30;
+const NEEDED_COUNTS: usize = 4;
+const COUNTS: usize = 6;
 
-struct Reader<'a> {
-    lines: Vec<&'a str>,
-    /// Index of the next line.
-    next: usize,
-    file: &'a str,
+/// More Mach numbers or angles are those of no table.
+const LARGEST_COUNT: usize = 999;
+
+/// The first line.
+#[derive(Debug, PartialEq)]
+struct Header {
+    name: String,
+    /// ML, NL, MD, ND.
+    counts: [usize; NEEDED_COUNTS],
 }
 
 /// Reads the text of a C81 file; `file` is its name for errors.
 pub fn parse(text: &str, file: &str) -> Result<Airfoil, AirfoilError> {
-    let mut reader = Reader {
-        lines: text.lines().collect(),
-        next: 0,
-        file,
-    };
-    let header = reader.line("the header")?;
-    let name: String = header.chars().take(30).collect();
-    let count = |index: usize| {
-        let column = 30 + 2 * index;
-        let field: String = header.chars().skip(column).take(2).collect();
-        field.trim().parse::<usize>().ok().filter(|n| *n > 0).ok_or_else(|| {
-            reader.field_error(
-                1,
-                column + 1,
-                format!("`{}` is no count; columns 31-42 hold ML, NL, MD, ND, MM and NM in two digits each", field.trim()),
-            )
-        })
-    };
-    let (lift_machs, lift_angles) = (count(0)?, count(1)?);
-    let (drag_machs, drag_angles) = (count(2)?, count(3)?);
-    let lift = reader.table("lift", lift_machs, lift_angles)?;
-    let drag = reader.table("drag", drag_machs, drag_angles)?;
-    Ok(Airfoil {
-        name: name.trim().to_owned(),
-        lift,
-        drag,
+    read(text).map_err(|(line, column, problem)| AirfoilError::MalformedField {
+        file: file.to_owned(),
+        line,
+        column,
+        problem,
     })
 }
 
-impl<'a> Reader<'a> {
-    fn line(&mut self, wanted: &str) -> Result<&'a str, AirfoilError> {
-        let line = self
-            .lines
-            .get(self.next)
-            .ok_or_else(|| AirfoilError::Malformed {
-                file: self.file.to_owned(),
-                line: self.lines.len().max(1),
-                problem: format!("the file ends before {wanted}"),
-            })?;
-        self.next += 1;
-        Ok(line)
-    }
+fn read(text: &str) -> Result<Airfoil, Problem> {
+    let mut records = Records::new(text);
+    let (line, first) = records.line("the header")?;
+    let header = header(first).ok_or_else(|| {
+        let field: String = first.chars().skip(COUNTS_COLUMN).take(2).collect();
+        let problem = format!(
+            "`{}` is no count; columns 31-42 hold ML, NL, MD, ND, MM and NM in two digits each, or the line ends with these numbers between blanks",
+            field.trim()
+        );
+        (line, COUNTS_COLUMN + 1, problem)
+    })?;
+    let [lift_machs, lift_angles, drag_machs, drag_angles] = header.counts;
+    let lift = table(&mut records, "lift", lift_machs, lift_angles)?;
+    let drag = table(&mut records, "drag", drag_machs, drag_angles)?;
+    Ok(Airfoil {
+        name: header.name,
+        data: Data::Tables { lift, drag },
+    })
+}
 
-    fn field_error(&self, line: usize, column: usize, problem: String) -> AirfoilError {
-        AirfoilError::MalformedField {
-            file: self.file.to_owned(),
-            line,
-            column,
-            problem,
+fn count(text: &str) -> Option<usize> {
+    let is_digits = text.bytes().all(|b| b.is_ascii_digit());
+    let value = text.parse().ok().filter(|_| is_digits);
+    value.filter(|n| (1..=LARGEST_COUNT).contains(n))
+}
+
+fn header(line: &str) -> Option<Header> {
+    header_in_columns(line).or_else(|| free_header(line))
+}
+
+/// Counts of two digits from column 31 on.
+fn header_in_columns(line: &str) -> Option<Header> {
+    if line.contains('\t') {
+        return None;
+    }
+    let text: Vec<char> = line.chars().collect();
+    let mut counts = [0; NEEDED_COUNTS];
+    for (i, slot) in counts.iter_mut().enumerate() {
+        let field = text.get(COUNTS_COLUMN + 2 * i..)?.iter().take(2);
+        *slot = count(field.collect::<String>().trim())?;
+    }
+    let name: String = text.iter().take(COUNTS_COLUMN).collect();
+    Some(Header {
+        name: name.trim().to_owned(),
+        counts,
+    })
+}
+
+/// Counts at the end of the line, between blanks or all in one word of two digits each.
+fn free_header(line: &str) -> Option<Header> {
+    let words: Vec<(usize, &str)> = words(line).collect();
+    let is_number = |word: &&(usize, &str)| word.1.bytes().all(|b| b.is_ascii_digit());
+    let numbers = words.iter().rev().take_while(is_number).count();
+    let (begin, texts): (usize, Vec<String>) = match words[words.len() - numbers..] {
+        [.., (column, run)] if run.len() == 2 * COUNTS || run.len() == 2 * NEEDED_COUNTS => {
+            let pairs = run.as_bytes().chunks(2);
+            let text = |pair: &[u8]| String::from_utf8_lossy(pair).into_owned();
+            (column, pairs.map(text).collect())
         }
-    }
-
-    /// The number in the field that begins at character `column` (from 0) of the current line.
-    fn number(&self, line: &str, column: usize, what: &str) -> Result<f64, AirfoilError> {
-        let field: String = line.chars().skip(column).take(WIDTH).collect();
-        let value = field.trim().parse::<f64>().ok().filter(|v| v.is_finite());
-        value.ok_or_else(|| {
-            self.field_error(
-                self.next,
-                column + 1,
-                format!(
-                    "{what} is expected in these seven columns, not `{}`",
-                    field.trim()
-                ),
-            )
-        })
-    }
-
-    /// `count` values, nine a line from column 8 on, none below `lowest`.
-    fn values(
-        &mut self,
-        mut line: &'a str,
-        count: usize,
-        what: &str,
-        lowest: f64,
-    ) -> Result<Vec<f64>, AirfoilError> {
-        let mut values = Vec::with_capacity(count);
-        for i in 0..count {
-            let place = i % VALUES_PER_LINE;
-            if i > 0 && place == 0 {
-                line = self.line(what)?;
-            }
-            let column = WIDTH * (place + 1);
-            let value = self.number(line, column, what)?;
-            if value < lowest {
-                let problem = format!("{value}: {what} must not be below {lowest}");
-                return Err(self.field_error(self.next, column + 1, problem));
-            }
-            values.push(value);
-        }
-        Ok(values)
-    }
-
-    fn table(&mut self, name: &str, machs: usize, angles: usize) -> Result<Table, AirfoilError> {
-        let what = format!("a Mach number of the {name} table");
-        let line = self.line(&what)?;
-        let numbers = self.values(line, machs, &what, 0.0)?;
-        if numbers.windows(2).any(|pair| pair[1] <= pair[0]) {
-            return Err(self.field_error(
-                self.next,
-                WIDTH + 1,
-                format!("the Mach numbers of the {name} table must increase"),
-            ));
-        }
-        let mut columns = vec![Vec::with_capacity(angles); machs];
-        let mut previous = f64::NEG_INFINITY;
-        for row in 0..angles {
-            let what = format!("a value of the {name} table");
-            let line = self.line(&what)?;
-            let alpha = self.number(line, 0, &format!("an angle of the {name} table"))?;
-            let ends_wrong = (row == 0 && alpha != -180.0) || (row + 1 == angles && alpha != 180.0);
-            if alpha <= previous || ends_wrong {
-                return Err(self.field_error(
-                    self.next,
-                    1,
-                    format!("angle {alpha}: the angles of the {name} table must increase from -180 to 180 deg"),
-                ));
-            }
-            previous = alpha;
-            let lowest = if name == "drag" {
-                0.0
-            } else {
-                f64::NEG_INFINITY
+        ref numbers => {
+            let taken = match numbers.len() {
+                COUNTS.. => COUNTS,
+                NEEDED_COUNTS => NEEDED_COUNTS,
+                // A number of the section, such as 0012, before four counts; else one is missing.
+                5 if numbers[0].1.len() > 2 => NEEDED_COUNTS,
+                _ => return None,
             };
-            let values = self.values(line, machs, &what, lowest)?;
-            for (column, value) in columns.iter_mut().zip(values) {
-                column.push((alpha, value));
-            }
+            let counts = &numbers[numbers.len() - taken..];
+            let texts = counts.iter().map(|word| word.1.to_owned());
+            (counts[0].0, texts.collect())
         }
-        let curves = columns.iter().map(|points| Curve::from_degrees(points));
-        Ok(Table::new(
-            Axis::Mach,
-            numbers.into_iter().zip(curves).collect(),
-        ))
+    };
+    let mut counts = [0; NEEDED_COUNTS];
+    for (slot, text) in counts.iter_mut().zip(&texts) {
+        *slot = count(text)?;
     }
+    let name: String = line.chars().take(begin - 1).collect();
+    let is_around = |c: char| c.is_whitespace() || c == ',' || c == ';';
+    Some(Header {
+        name: name.trim_matches(is_around).to_owned(),
+        counts,
+    })
+}
+
+fn table(records: &mut Records, name: &str, machs: usize, angles: usize) -> Result<Table, Problem> {
+    let numbers = records.numbers(Layout {
+        has_angle: false,
+        values: machs,
+        what: &format!("a Mach number of the {name} table"),
+    })?;
+    let mut previous = None;
+    for mach in &numbers {
+        if mach.value < 0.0 || previous.is_some_and(|p| mach.value <= p) {
+            let problem = format!(
+                "Mach number {}: those of the {name} table must increase and not be negative",
+                mach.value
+            );
+            return Err((mach.line, mach.column, problem));
+        }
+        previous = Some(mach.value);
+    }
+    let what = format!("a value of the {name} table");
+    let mut columns = vec![Vec::new(); machs];
+    let mut previous = f64::NEG_INFINITY;
+    for row in 0..angles {
+        let record = records.numbers(Layout {
+            has_angle: true,
+            values: machs,
+            what: &what,
+        })?;
+        let Some((angle, values)) = record.split_first() else {
+            continue; // a record is never empty
+        };
+        let alpha = angle.value;
+        let ends_wrong = (row == 0 && alpha != -180.0) || (row + 1 == angles && alpha != 180.0);
+        if alpha <= previous || ends_wrong {
+            let problem = format!(
+                "angle {alpha}: the angles of the {name} table must increase from -180 to 180 deg, {angles} of them by the first line"
+            );
+            return Err((angle.line, angle.column, problem));
+        }
+        previous = alpha;
+        for (column, number) in columns.iter_mut().zip(values) {
+            if name == "drag" && number.value < 0.0 {
+                let problem = format!("{}: {what} must not be below 0", number.value);
+                return Err((number.line, number.column, problem));
+            }
+            column.push((alpha, number.value));
+        }
+    }
+    let curves = columns.iter().map(|points| Curve::from_degrees(points));
+    let machs = numbers.iter().map(|number| number.value);
+    Ok(Table::new(Axis::Mach, machs.zip(curves).collect()))
 }
 
 #[cfg(test)]
@@ -189,6 +208,7 @@ Test section                   2 4 1 3 1 2
         };
         airfoil.lift_coefficient(
             &model,
+            0.0,
             0.0,
             Similarity {
                 reynolds: 1e6,
@@ -236,14 +256,14 @@ Test section                   2 4 1 3 1 2
             (
                 "   0.80",
                 "   o.80",
-                "line 2, column 15",
+                "line 2, column 18",
                 "a Mach number of the lift table",
             ),
-            ("   0.80", "   0.00", "line 2, column 8", "must increase"),
+            ("   0.80", "   0.00", "line 2, column 18", "must increase"),
             (
                 "   0.00   0.10",
                 "   0.00   .1.0",
-                "line 4, column 8",
+                "line 4, column 11",
                 "a value of the lift table",
             ),
             (
@@ -255,7 +275,7 @@ Test section                   2 4 1 3 1 2
             (
                 "   0.00   0.01",
                 "   0.00  -0.01",
-                "line 9, column 8",
+                "line 9, column 10",
                 "must not be below 0",
             ),
             (" 180.00   0.03\n", "", "line 9", "the file ends before"),
@@ -265,6 +285,177 @@ Test section                   2 4 1 3 1 2
             assert!(
                 error.contains(place) && error.contains(part),
                 "{to:?}: {error}"
+            );
+        }
+    }
+
+    /// Lift at Mach 0.4 halfway between the Mach numbers of `GOOD`, and drag, at some angles.
+    fn sampled(airfoil: &Airfoil) -> Vec<f64> {
+        let model = SectionModel {
+            lift: Lift::Table,
+            compressibility: Compressibility::None,
+            drag_reynolds_exponent: 0.2,
+        };
+        let flow = Similarity {
+            reynolds: 1e6,
+            mach: 0.4,
+        };
+        let angles = [-3.0, -0.5, 0.0, 0.1, 1.0, 3.0];
+        let lift = angles.map(|a| airfoil.lift_coefficient(&model, 0.0, a, flow));
+        let drag = angles.map(|a| airfoil.drag_coefficient(&model, a, flow));
+        [lift, drag].concat()
+    }
+
+    #[test]
+    fn what_people_do_to_files_does_not_change_what_is_read() {
+        let good = sampled(&parse(GOOD, "good.c81").unwrap());
+        let moment = "          0.00\n-180.00   0.00\n 180.00   0.00\n";
+        let free_lines: Vec<String> = GOOD
+            .lines()
+            .map(|l| l.split_whitespace().collect::<Vec<_>>().join(" "))
+            .collect();
+        let free = free_lines.join("\n");
+        for (what, text) in [
+            ("a moment table", format!("{GOOD}{moment}")),
+            ("half a moment table", format!("{GOOD}          0.00\n-18")),
+            ("no trailing newline", GOOD.trim_end().to_owned()),
+            ("CRLF", GOOD.replace('\n', "\r\n")),
+            (
+                "blank lines",
+                format!("\n{}", GOOD.replace('\n', "\n   \n\n")),
+            ),
+            ("blanks at the ends", GOOD.replace('\n', "      \n")),
+            ("free", free.clone()),
+            ("tabs", free.replace(' ', "\t")),
+            (
+                "commas",
+                free.replace("Test section", "Test_section")
+                    .replace(' ', ", "),
+            ),
+            ("upper case", GOOD.to_uppercase()),
+            (
+                "blanks as zeros",
+                GOOD.replace("-180.00   0.00   0.00", "-180.00          0.00"),
+            ),
+            (
+                "a blank angle",
+                GOOD.replace("   0.00   0.10", "          0.10"),
+            ),
+            (
+                "numbers that touch",
+                GOOD.replace("  10.00   1.10   1.60", "  10.001.100001.60000"),
+            ),
+            (
+                "other numbers",
+                GOOD.replace("1.10", "1.1 ")
+                    .replace("   1.60", "1.6D+00")
+                    .replace("0.80", " .8 "),
+            ),
+            (
+                "a short name",
+                GOOD.replace("Test section                   2", "Test 2"),
+            ),
+            (
+                "a short name without moments",
+                GOOD.replace(
+                    "Test section                   2 4 1 3 1 2",
+                    "NACA 0012 2 4 1 3",
+                ),
+            ),
+            (
+                "an upper-case name with digits",
+                GOOD.replace(
+                    "Test section                   2",
+                    "NACA 0012 SECTION, 2D 2",
+                ),
+            ),
+            (
+                "counts in one word",
+                GOOD.replace(
+                    "Test section                   2 4 1 3 1 2",
+                    "Test 020401030102",
+                ),
+            ),
+            (
+                "counts without moments",
+                GOOD.replace(" 2 4 1 3 1 2", " 2 4 1 3"),
+            ),
+            ("zero moments", GOOD.replace(" 2 4 1 3 1 2", " 2 4 1 3 0 0")),
+            (
+                "one line free",
+                GOOD.replace("  10.00   1.10   1.60", "10 1.1 1.6"),
+            ),
+        ] {
+            match parse(&text, "x.c81") {
+                Ok(airfoil) => assert_eq!(sampled(&airfoil), good, "{what}"),
+                Err(error) => panic!("{what}: {error}"),
+            }
+        }
+    }
+
+    #[test]
+    fn the_name_ends_where_the_counts_begin() {
+        for (line, name) in [
+            ("SC1095                         2 4 1 3 1 2", "SC1095"),
+            ("sc 1095 r8 2 4 1 3 1 2", "sc 1095 r8"),
+            ("NACA 0012 2 4 1 3 1 2", "NACA 0012"),
+            ("NACA 0012 2 4 1 3", "NACA 0012"),
+            ("\tV23010-1.58\t2\t4\t1\t3\t1\t2", "V23010-1.58"),
+            (
+                "a name that has thirty letters 2 4 1 3 1 2",
+                "a name that has thirty letters",
+            ),
+            ("0012, 020401030102", "0012"),
+        ] {
+            let found = header(line).unwrap();
+            assert_eq!((found.name.as_str(), found.counts), (name, [2, 4, 1, 3]));
+        }
+        for line in [
+            "",
+            "name",
+            "name 1 2 3",
+            "name 4 1 3 1 2",
+            "name 0 4 1 3 1 2",
+            "name 2 4 1 9999999999999999999999",
+        ] {
+            assert_eq!(header(line), None, "{line}");
+        }
+    }
+
+    #[test]
+    fn more_or_fewer_numbers_than_the_first_line_says_are_refused() {
+        for (from, to, place, part) in [
+            (
+                "  10.00   1.10   1.60",
+                "  10.00   1.10",
+                "line 5, column 1",
+                "3 numbers are expected here, not 2",
+            ),
+            (
+                "  10.00   1.10   1.60",
+                "10 1.1 1.6 2.1",
+                "line 5, column 1",
+                "3 numbers are expected here, not 4",
+            ),
+            (
+                " 2 4 1 3 1 2",
+                " 2 3 1 3 1 2",
+                "line 5, column 3",
+                "3 of them by the first line",
+            ),
+            (
+                " 2 4 1 3 1 2",
+                " 2 5 1 3 1 2",
+                "line 7, column 1",
+                "3 numbers are expected here, not 1",
+            ),
+        ] {
+            let error = parse(&GOOD.replacen(from, to, 1), "x")
+                .unwrap_err()
+                .to_string();
+            assert!(
+                error.contains(place) && error.contains(part),
+                "{to}: {error}"
             );
         }
     }

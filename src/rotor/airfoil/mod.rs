@@ -2,10 +2,20 @@
 //! more Reynolds or Mach numbers, read from files.
 
 mod c81;
+mod combi;
+#[cfg(test)]
+mod fuzz;
+mod laws;
+mod layers;
 mod polar;
+mod records;
 mod table;
 
-pub use table::{Axis, Curve, Table, wrapped};
+pub use layers::Axis;
+pub use table::{Curve, Table, wrapped};
+
+use laws::{Laws, Line};
+use layers::Layers;
 
 use super::{compressibility::Compressibility, scalar::Scalar, text_file};
 use core::f64::consts::PI;
@@ -39,10 +49,12 @@ pub enum AirfoilError {
 /// Where a section's lift comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Lift {
-    /// The airfoil's table.
+    /// The airfoil's table; of a file of laws, the lines A and C (see `laws`).
     Table,
     /// Flat plate: cl = 2 pi sin(alpha) (thesis eq. 49).
     TwoPi,
+    /// One lift slope by the pitch of the element (thesis 3.5.1), for a file of laws only.
+    ThesisSlope,
 }
 
 /// How a section's coefficients are made from its table.
@@ -65,19 +77,28 @@ pub struct Similarity<S> {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Airfoil {
     name: String,
-    lift: Table,
-    drag: Table,
+    data: Data,
+}
+
+/// The two kinds of section data.
+#[derive(Debug, Clone, PartialEq)]
+enum Data {
+    Tables { lift: Table, drag: Table },
+    Laws(Laws),
 }
 
 impl Airfoil {
-    /// Reads a file: polars by Reynolds number if its name ends in `.polar`, else C81.
+    /// Reads a file: a CombiTable of laws if it begins with `#1`, else polars by Reynolds number if its
+    /// name ends in `.polar`, else C81.
     pub fn read(path: &Path) -> Result<Self, AirfoilError> {
         let file = path.display().to_string();
         let text = text_file::read(path).map_err(|reason| AirfoilError::Unreadable {
             file: file.clone(),
             reason,
         })?;
-        if path
+        if combi::is_combi(&text) {
+            combi::parse(&text, &file)
+        } else if path
             .extension()
             .is_some_and(|e| e.eq_ignore_ascii_case("polar"))
         {
@@ -92,23 +113,51 @@ impl Airfoil {
         &self.name
     }
 
-    /// Lift coefficient at angle of attack `alpha` (rad, any value).
+    /// Whether the file gives laws, which `Lift::ThesisSlope` needs.
+    pub fn has_laws(&self) -> bool {
+        matches!(self.data, Data::Laws(_))
+    }
+
+    /// Lowest and highest Reynolds or Mach number of the file, if its coefficients depend on it. A
+    /// single Mach number is none: a rule takes the coefficients to others.
+    pub fn range(&self, axis: Axis) -> Option<(f64, f64)> {
+        let (lift, drag) = match &self.data {
+            Data::Tables { lift, drag } => (lift.layers(), drag.layers()),
+            Data::Laws(laws) => (laws.layers(), laws.layers()),
+        };
+        let counts = |layers: &&Layers| axis == Axis::Reynolds || layers.resolves_mach();
+        let mut ranges = [lift, drag]
+            .into_iter()
+            .filter(counts)
+            .filter_map(|layers| layers.range(axis));
+        let first = ranges.next()?;
+        Some(ranges.fold(first, |a, b| (a.0.max(b.0), a.1.min(b.1))))
+    }
+
+    /// Lift coefficient at angle of attack `alpha` (rad, any value) of an element with the pitch
+    /// `pitch` (rad), on which only `Lift::ThesisSlope` depends.
     pub fn lift_coefficient<S: Scalar>(
         &self,
         model: &SectionModel,
+        pitch: f64,
         alpha: S,
         flow: Similarity<S>,
     ) -> S {
-        match model.lift {
-            Lift::TwoPi => self.compressible(model, alpha.sin() * (2.0 * PI), flow.mach),
-            Lift::Table => self.compressible(model, self.lift.value(alpha, flow), flow.mach),
-        }
+        let lift = match (&self.data, model.lift) {
+            (_, Lift::TwoPi) => alpha.sin() * (2.0 * PI),
+            (Data::Tables { lift, .. }, _) => lift.value(alpha, flow),
+            (Data::Laws(laws), _) => laws.lift(model.line(pitch), alpha, flow),
+        };
+        self.compressible(model, lift, flow.mach)
     }
 
     /// The lift coefficient at a Mach number from the table's. A table of several Mach numbers
     /// takes the place of a rule.
     pub fn compressible<S: Scalar>(&self, model: &SectionModel, lift: S, mach: S) -> S {
-        if model.lift == Lift::Table && self.lift.resolves_mach() {
+        if let Data::Tables { lift: table, .. } = &self.data
+            && model.lift == Lift::Table
+            && table.layers().resolves_mach()
+        {
             return lift;
         }
         model.compressibility.correct(lift, mach)
@@ -129,13 +178,13 @@ impl Airfoil {
         alpha: S,
         flow: Similarity<S>,
     ) -> S {
-        let drag = self.drag.value(alpha, flow);
-        let Some((lowest, highest)) = self.drag.reynolds_range() else {
+        let drag = self.table_drag(alpha, flow);
+        let Some((lowest, highest)) = self.range(Axis::Reynolds) else {
             return drag;
         };
         let reynolds = flow.reynolds.at_least(LOWEST_CORRECTED_REYNOLDS);
         let nearest = reynolds.value().clamp(lowest, highest);
-        let is_off = model.drag_reynolds_exponent == 0.0 || !self.lift.is_anywhere();
+        let is_off = model.drag_reynolds_exponent == 0.0 || !self.lifts();
         if is_off || nearest == reynolds.value() {
             return drag;
         }
@@ -145,23 +194,42 @@ impl Airfoil {
             reynolds: flow.reynolds.value(),
             mach: flow.mach.value(),
         };
-        let (negative, positive) = self.lift.stall_angles(plain);
+        let (negative, positive) = self.stall_angles(plain);
         let stall = if wrapped(alpha).value() < 0.0 {
             negative
         } else {
             positive
         };
-        drag + drag.at_most(self.drag.value(stall, plain)) * (factor - 1.0)
+        drag + drag.at_most(self.table_drag(stall, plain)) * (factor - 1.0)
     }
 
-    /// Slope of the line through the lift at -3 and +3 deg of angle of attack, 1/rad, and
-    /// the angle of zero lift on that line, rad: thesis section 3.5.1, line A.
-    pub fn lift_line(&self, model: &SectionModel, flow: Similarity<f64>) -> (f64, f64) {
-        if model.lift == Lift::TwoPi {
-            return (2.0 * PI, 0.0);
+    /// As the file has it.
+    fn table_drag<S: Scalar>(&self, alpha: S, flow: Similarity<S>) -> S {
+        match &self.data {
+            Data::Tables { drag, .. } => drag.value(alpha, flow),
+            Data::Laws(laws) => laws.drag(alpha, flow),
         }
+    }
+
+    /// Whether the section has lift at any angle.
+    fn lifts(&self) -> bool {
+        match &self.data {
+            Data::Tables { lift, .. } => lift.is_anywhere(),
+            Data::Laws(_) => true,
+        }
+    }
+
+    /// Slope of one line for the lift, 1/rad, and the angle of zero lift on that line, rad. Of a table,
+    /// the line through the lift at -3 and +3 deg of angle of attack: thesis section 3.5.1, line A. Of
+    /// laws, line A, or with `Lift::ThesisSlope` line A or B by the pitch of the element (rad).
+    pub fn lift_line(&self, model: &SectionModel, pitch: f64, flow: Similarity<f64>) -> (f64, f64) {
+        let lift = match (&self.data, model.lift) {
+            (_, Lift::TwoPi) => return (2.0 * PI, 0.0),
+            (Data::Laws(laws), _) => return (laws.slope(model.line(pitch), flow), 0.0),
+            (Data::Tables { lift, .. }, _) => lift,
+        };
         let edge = 3.0_f64.to_radians();
-        let (low, high) = (self.lift.value(-edge, flow), self.lift.value(edge, flow));
+        let (low, high) = (lift.value(-edge, flow), lift.value(edge, flow));
         let slope = (high - low) / (2.0 * edge);
         if slope == 0.0 {
             return (0.0, 0.0);
@@ -172,7 +240,24 @@ impl Airfoil {
     /// Angles of attack (negative, positive; rad) at which the lift reaches its first peak; -pi
     /// and pi for a section without lift, which cannot stall.
     pub fn stall_angles(&self, flow: Similarity<f64>) -> (f64, f64) {
-        self.lift.stall_angles(flow)
+        match &self.data {
+            Data::Tables { lift, .. } => lift.stall_angles(flow),
+            Data::Laws(laws) => {
+                let stall = laws.stall(flow);
+                (-stall, stall)
+            }
+        }
+    }
+}
+
+impl SectionModel {
+    /// Which of the lines of a file of laws the lift follows.
+    fn line(&self, pitch: f64) -> Line {
+        if self.lift == Lift::ThesisSlope {
+            Line::ByPitch(pitch)
+        } else {
+            Line::Broken
+        }
     }
 }
 

@@ -13,7 +13,7 @@
 //! The angle increases strictly from -180 to 180, where the values of both ends agree; drag is
 //! never negative. Interpolation is linear in angle and in ln Re.
 
-use super::{Airfoil, AirfoilError, Axis, Curve, Table};
+use super::{Airfoil, AirfoilError, Axis, Curve, Data, Table};
 
 /// One row: angle of attack in deg, lift and drag coefficients.
 type Row = (f64, f64, f64);
@@ -105,8 +105,10 @@ pub fn parse(text: &str, file: &str) -> Result<Airfoil, AirfoilError> {
         Table::new(Axis::Reynolds, layers.collect())
     };
     Ok(Airfoil {
-        lift: table(|r| r.1),
-        drag: table(|r| r.2),
+        data: Data::Tables {
+            lift: table(|r| r.1),
+            drag: table(|r| r.2),
+        },
         name,
     })
 }

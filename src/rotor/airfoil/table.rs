@@ -1,6 +1,9 @@
 //! One coefficient over angle of attack and, in layers, over Reynolds or Mach number.
 
-use super::Similarity;
+use super::{
+    Similarity,
+    layers::{Axis, Layers},
+};
 use crate::rotor::scalar::Scalar;
 use core::f64::consts::PI;
 
@@ -22,21 +25,12 @@ pub struct Curve {
     stall: (f64, f64),
 }
 
-/// What the layers of a table are numbered by.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Axis {
-    Reynolds,
-    Mach,
-}
-
 /// Curves for one or more Reynolds or Mach numbers.
 ///
 /// Between layers the value is linear in ln Re or in Mach number; outside, the nearest layer holds.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Table {
-    axis: Axis,
-    /// ln Re or Mach number of each layer, strictly increasing.
-    position: Vec<f64>,
+    layers: Layers,
     curve: Vec<Curve>,
 }
 
@@ -115,25 +109,14 @@ impl Table {
     /// Layers as (Reynolds or Mach number, curve), at least one, numbers strictly increasing.
     pub fn new(axis: Axis, layers: Vec<(f64, Curve)>) -> Self {
         let (numbers, curve): (Vec<f64>, Vec<Curve>) = layers.into_iter().unzip();
-        let position = numbers
-            .into_iter()
-            .map(|n| {
-                if axis == Axis::Reynolds {
-                    Scalar::ln(n)
-                } else {
-                    n
-                }
-            })
-            .collect();
         Self {
-            axis,
-            position,
+            layers: Layers::new(axis, numbers),
             curve,
         }
     }
 
-    pub fn resolves_mach(&self) -> bool {
-        self.axis == Axis::Mach && self.curve.len() > 1
+    pub fn layers(&self) -> &Layers {
+        &self.layers
     }
 
     /// Whether the coefficient differs from 0 at some angle.
@@ -143,56 +126,16 @@ impl Table {
             .any(|curve| curve.value.iter().any(|v| *v != 0.0))
     }
 
-    /// Lowest and highest Reynolds number, if the layers are numbered by it.
-    pub fn reynolds_range(&self) -> Option<(f64, f64)> {
-        let ends = self.position.first().zip(self.position.last());
-        ends.filter(|_| self.axis == Axis::Reynolds)
-            .map(|(low, high)| (Scalar::exp(*low), Scalar::exp(*high)))
-    }
-
     pub fn value<S: Scalar>(&self, alpha: S, flow: Similarity<S>) -> S {
         let alpha = wrapped(alpha);
-        let (layer, weight) = self.layer(flow);
-        let Some(weight) = weight else {
-            return self.curve[layer].value(alpha);
-        };
-        let lower = self.curve[layer].value(alpha);
-        lower + weight * (self.curve[layer + 1].value(alpha) - lower)
+        self.layers.mixed(flow, |i| self.curve[i].value(alpha))
     }
 
     pub fn stall_angles(&self, flow: Similarity<f64>) -> (f64, f64) {
-        let (layer, weight) = self.layer(flow);
-        let lower = self.curve[layer].stall;
-        let Some(weight) = weight else {
-            return lower;
-        };
-        let upper = self.curve[layer + 1].stall;
         (
-            lower.0 + weight * (upper.0 - lower.0),
-            lower.1 + weight * (upper.1 - lower.1),
+            self.layers.mixed(flow, |i| self.curve[i].stall.0),
+            self.layers.mixed(flow, |i| self.curve[i].stall.1),
         )
-    }
-
-    /// The layer at or below the flow's number, and how far (0 to 1) the number lies towards the
-    /// next one; no weight where a single layer holds.
-    fn layer<S: Scalar>(&self, flow: Similarity<S>) -> (usize, Option<S>) {
-        let last = self.position.len() - 1;
-        if last == 0 {
-            return (0, None);
-        }
-        let number = match self.axis {
-            Axis::Reynolds => flow.reynolds.at_least(1.0).ln(),
-            Axis::Mach => flow.mach,
-        };
-        if number.value() <= self.position[0] {
-            return (0, None);
-        }
-        if number.value() >= self.position[last] {
-            return (last, None);
-        }
-        let upper = self.position.partition_point(|p| *p <= number.value());
-        let (p0, p1) = (self.position[upper - 1], self.position[upper]);
-        (upper - 1, Some((number - p0) / (p1 - p0)))
     }
 }
 

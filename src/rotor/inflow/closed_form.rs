@@ -71,7 +71,7 @@ pub fn solve(element: &Element, rotation: f64, climb: f64) -> Result<ClosedForm,
     }
     let flow = element.similarity(rotation);
     let (slope, zero_lift) = {
-        let line = |airfoil: &Airfoil| airfoil.lift_line(element.model, flow);
+        let line = |airfoil: &Airfoil| airfoil.lift_line(element.model, element.pitch, flow);
         let slope = element.section.mixed(|airfoil| line(airfoil).0);
         let moment = element
             .section

@@ -1,0 +1,226 @@
+//! Records of numbers as Fortran programs write and read them: in columns of seven characters
+//! (10F7.0, continued as 7X,9F7.0), or, where a line does not keep to them, free.
+//!
+//! In columns, numbers may touch each other, and an empty column before the end of the line is 0.
+//! Free numbers stand between blanks, tabs, commas or semicolons. An exponent may be written with D.
+
+const WIDTH: usize = 7;
+const VALUES_PER_LINE: usize = 9;
+
+/// A number and where it stands: line and column, from 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Number {
+    pub value: f64,
+    pub line: usize,
+    pub column: usize,
+}
+
+/// Line, column and what is wrong there.
+pub type Problem = (usize, usize, String);
+
+/// The lines of a text that are not blank.
+pub struct Records<'a> {
+    /// With their numbers from 1.
+    lines: Vec<(usize, &'a str)>,
+    /// Index of the next line.
+    next: usize,
+}
+
+/// What stands in a record: `values` numbers, and before them an angle or nothing.
+#[derive(Debug, Clone, Copy)]
+pub struct Layout<'a> {
+    pub has_angle: bool,
+    pub values: usize,
+    /// For errors.
+    pub what: &'a str,
+}
+
+impl<'a> Records<'a> {
+    pub fn new(text: &'a str) -> Self {
+        let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line));
+        Self {
+            lines: lines.filter(|(_, line)| !line.trim().is_empty()).collect(),
+            next: 0,
+        }
+    }
+
+    /// The next line with its number.
+    pub fn line(&mut self, wanted: &str) -> Result<(usize, &'a str), Problem> {
+        let Some(line) = self.lines.get(self.next) else {
+            let last = self.lines.last().map_or(1, |(number, _)| *number);
+            return Err((last, 1, format!("the file ends before {wanted}")));
+        };
+        self.next += 1;
+        Ok(*line)
+    }
+
+    /// The numbers of the next record: the angle, if it has one, and the values.
+    pub fn numbers(&mut self, layout: Layout) -> Result<Vec<Number>, Problem> {
+        let begin = self.next;
+        if let Some(numbers) = self.in_columns(layout)? {
+            return Ok(numbers);
+        }
+        self.next = begin;
+        self.free(layout)
+    }
+
+    /// None if one of the lines does not keep to the columns.
+    fn in_columns(&mut self, layout: Layout) -> Result<Option<Vec<Number>>, Problem> {
+        let mut numbers = Vec::new();
+        let mut missing = layout.values;
+        let mut has_angle = layout.has_angle;
+        while missing > 0 {
+            let (number, line) = self.line(layout.what)?;
+            let here = missing.min(VALUES_PER_LINE);
+            let Some(found) = columns(number, line, has_angle, here) else {
+                return Ok(None);
+            };
+            numbers.extend(found);
+            missing -= here;
+            has_angle = false;
+        }
+        Ok(Some(numbers))
+    }
+
+    fn free(&mut self, layout: Layout) -> Result<Vec<Number>, Problem> {
+        let wanted = layout.values + usize::from(layout.has_angle);
+        let mut numbers = Vec::new();
+        while numbers.len() < wanted {
+            let (line, text) = self.line(layout.what)?;
+            for (column, word) in words(text) {
+                let Some(value) = number(word) else {
+                    let problem = format!(
+                        "`{word}` is not a number; {} is expected, in columns of seven characters or between blanks",
+                        layout.what
+                    );
+                    return Err((line, column, problem));
+                };
+                numbers.push(Number {
+                    value,
+                    line,
+                    column,
+                });
+            }
+            let is_short = numbers.len() < wanted && layout.values <= VALUES_PER_LINE;
+            if is_short || numbers.len() > wanted {
+                let problem = format!(
+                    "{wanted} numbers are expected here, not {}; {} is missing or too many: correct the line, or the counts in the first line",
+                    numbers.len(),
+                    layout.what
+                );
+                return Err((line, 1, problem));
+            }
+        }
+        Ok(numbers)
+    }
+}
+
+/// The numbers of a line in columns, or None if it does not keep to them.
+fn columns(number: usize, line: &str, has_angle: bool, values: usize) -> Option<Vec<Number>> {
+    if line.contains('\t') {
+        return None;
+    }
+    let text: Vec<char> = line.trim_end().chars().collect();
+    let mut numbers = Vec::new();
+    for place in 0..=values {
+        // A line that ends before the column has forgotten a number rather than left it blank.
+        let rest = text.get(place * WIDTH..)?;
+        let field: String = rest.iter().take(WIDTH).collect();
+        let is_blank = field.trim().is_empty();
+        if place == 0 && !has_angle {
+            if is_blank {
+                continue;
+            }
+            return None;
+        }
+        let before = field.chars().take_while(|c| c.is_whitespace()).count();
+        let value = if is_blank && !rest.is_empty() {
+            0.0
+        } else {
+            self::number(field.trim())?
+        };
+        numbers.push(Number {
+            value,
+            line: number,
+            column: place * WIDTH + 1 + if is_blank { 0 } else { before },
+        });
+    }
+    let end = (values + 1) * WIDTH;
+    text.len().le(&end).then_some(numbers)
+}
+
+/// A finite number as Fortran writes it.
+fn number(text: &str) -> Option<f64> {
+    let value = text
+        .parse()
+        .or_else(|_| text.replace(['d', 'D'], "e").parse());
+    value.ok().filter(|v: &f64| v.is_finite())
+}
+
+/// The words between separators, with their columns from 1.
+pub fn words(content: &str) -> impl Iterator<Item = (usize, &str)> {
+    let is_separator = |c: char| c.is_whitespace() || c == ',' || c == ';';
+    let mut rest = content;
+    let mut column = 1;
+    std::iter::from_fn(move || {
+        let word = rest.trim_start_matches(is_separator);
+        column += rest[..rest.len() - word.len()].chars().count();
+        let length = word.find(is_separator).unwrap_or(word.len());
+        let (found, after) = word.split_at(length);
+        let place = column;
+        rest = after;
+        column += found.chars().count();
+        (!found.is_empty()).then_some((place, found))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn values(line: &str, has_angle: bool, values: usize) -> Result<Vec<f64>, Problem> {
+        let layout = Layout {
+            has_angle,
+            values,
+            what: "a value",
+        };
+        let numbers = Records::new(line).numbers(layout)?;
+        Ok(numbers.iter().map(|n| n.value).collect())
+    }
+
+    #[test]
+    fn columns_come_first_and_free_numbers_where_a_line_breaks_them() {
+        for (line, expected) in [
+            (" -10.00   0.12  -0.50", [-10.0, 0.12, -0.5]),
+            ("-180.00-0.1234-1.0000", [-180.0, -0.1234, -1.0]),
+            (" -10.00         -0.50", [-10.0, 0.0, -0.5]),
+            ("          0.12  -0.50", [0.0, 0.12, -0.5]),
+            ("  10      1   1.5D-1 ", [10.0, 1.0, 0.15]),
+            ("-10 .12 -.5", [-10.0, 0.12, -0.5]),
+            ("-10\t.12\t-.5", [-10.0, 0.12, -0.5]),
+            ("-10, 0.12, -0.5", [-10.0, 0.12, -0.5]),
+            ("   -10.00000  0.12000  -0.50000", [-10.0, 0.12, -0.5]),
+            ("0.000000 1.234567 7.654321", [0.0, 1.234567, 7.654321]),
+        ] {
+            assert_eq!(values(line, true, 2).unwrap(), expected, "{line}");
+        }
+        assert_eq!(values("              0.80", false, 2).unwrap(), [0.0, 0.8]);
+        assert_eq!(values("0 0.8", false, 2).unwrap(), [0.0, 0.8]);
+    }
+
+    #[test]
+    fn a_line_with_too_few_or_too_many_numbers_is_refused() {
+        for (line, part) in [
+            (" -10.00   0.12", "3 numbers are expected here, not 2"),
+            (
+                " -10.00   0.12  -0.50   0.30",
+                "3 numbers are expected here, not 4",
+            ),
+            (" -10.00   0.12  -o.50", "`-o.50` is not a number"),
+            (" -10.00   0.12    nan", "`nan` is not a number"),
+        ] {
+            let (number, _, problem) = values(line, true, 2).unwrap_err();
+            assert!(number == 1 && problem.contains(part), "{line}: {problem}");
+        }
+    }
+}

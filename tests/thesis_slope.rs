@@ -1,0 +1,231 @@
+//! The thesis' lift slopes, stall angles and drag polynomials through the block, as a user sets them.
+
+use helicopter_rotor::block::{
+    RotorBlock,
+    variables::{
+        CompressibilityModel, INTEGERS, InflowModel, LiftModel, TipLossModel, integer, real, string,
+    },
+};
+use std::{fs, path::PathBuf};
+
+fn resources() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("modelDescription/resources")
+}
+
+/// A file with the slopes 6 (A) and 4 (C), stall at 0.2 rad and drag 0.01 + 0.5 alpha^2.
+fn constant_laws() -> String {
+    let folder = PathBuf::from(env!("CARGO_TARGET_TMPDIR"));
+    let file = folder.join(format!("laws-{:?}.txt", std::thread::current().id()));
+    fs::write(
+        &file,
+        "#1\ndouble airfoil(1, 7)\n1e5, 6, 4, 0.2, 0.01, 0, 0.5\n",
+    )
+    .unwrap();
+    file.to_str().unwrap().to_owned()
+}
+
+fn block(file: &str, integers: &[(usize, i32)]) -> RotorBlock {
+    let mut block = RotorBlock::new(resources());
+    block
+        .set_strings(&[string::AIRFOIL__FILE as u32], &[file])
+        .unwrap();
+    for (place, value) in integers {
+        block.set_integers(&[*place as u32], &[*value]).unwrap();
+    }
+    block
+}
+
+fn set(block: &mut RotorBlock, place: usize, value: f64) {
+    block.set_reals(&[place as u32], &[value]).unwrap();
+}
+
+/// Parameters and their values.
+const LIFT: (usize, i32) = (integer::MODEL__LIFT, LiftModel::ThesisSlope as i32);
+const INCOMPRESSIBLE: (usize, i32) = (
+    integer::MODEL__COMPRESSIBILITY,
+    CompressibilityModel::None as i32,
+);
+const NO_TIP_LOSS: (usize, i32) = (integer::MODEL__TIP_LOSS, TipLossModel::None as i32);
+/// As many as stations are shown.
+const ELEMENTS: (usize, i32) = (integer::NUMERICS__ELEMENTS, 20);
+
+/// Angle of attack, lift and drag coefficient at the stations.
+fn stations(block: &RotorBlock) -> Vec<(f64, f64, f64)> {
+    let reals = &block.values().reals;
+    (0..20)
+        .map(|i| {
+            (
+                reals[real::STATION_1__ANGLE_OF_ATTACK + i],
+                reals[real::STATION_1__LIFT_COEFFICIENT + i],
+                reals[real::STATION_1__DRAG_COEFFICIENT + i],
+            )
+        })
+        .collect()
+}
+
+/// Line A up to 3 deg of pitch and line B above, whatever the angle of attack is.
+#[test]
+fn the_pitch_chooses_the_slope() {
+    for inflow in [
+        InflowModel::Annulus,
+        InflowModel::AnnulusClosedForm,
+        InflowModel::Uniform,
+    ] {
+        for (collective, slope) in [
+            (1.0, 6.0),
+            (-2.0, 6.0),
+            (3.0, 6.0),
+            (3.1, 5.0),
+            (8.0, 5.0),
+            (-8.0, 5.0),
+        ] {
+            let inflow = (integer::MODEL__INFLOW, inflow as i32);
+            let mut block = block(
+                &constant_laws(),
+                &[LIFT, INCOMPRESSIBLE, NO_TIP_LOSS, ELEMENTS, inflow],
+            );
+            set(&mut block, real::COLLECTIVE, f64::to_radians(collective));
+            set(&mut block, real::AIRFOIL__DRAG_REYNOLDS_EXPONENT, 0.0);
+            block.update().unwrap();
+            for (alpha, lift, drag) in stations(&block) {
+                assert!(alpha.abs() < 0.2);
+                assert!(
+                    (lift - slope * alpha).abs() < 1e-12,
+                    "{collective}: {lift} at {alpha}"
+                );
+                assert!(drag >= 0.01, "{collective}: {drag}");
+            }
+        }
+    }
+}
+
+/// With washout the inner elements of one blade may lie above 3 deg and the outer ones below.
+#[test]
+fn each_element_has_the_slope_of_its_own_pitch() {
+    let mut block = block(
+        &constant_laws(),
+        &[LIFT, INCOMPRESSIBLE, NO_TIP_LOSS, ELEMENTS],
+    );
+    set(&mut block, real::GEOMETRY__TWIST, f64::to_radians(-8.0));
+    set(&mut block, real::COLLECTIVE, f64::to_radians(8.0));
+    block.update().unwrap();
+    let (mut of_a, mut of_b) = (0, 0);
+    for (i, (alpha, lift, _)) in stations(&block).into_iter().enumerate() {
+        let radius = block.values().reals[real::STATION_1__RADIUS + i];
+        let above = 8.0 - 8.0 * radius > 3.0;
+        *(if above { &mut of_b } else { &mut of_a }) += 1;
+        let slope = if above { 5.0 } else { 6.0 };
+        assert!((lift - slope * alpha).abs() < 1e-12, "r/R {radius}");
+    }
+    assert!(of_a > 3 && of_b > 3);
+}
+
+#[test]
+fn the_drag_is_the_polynomial_and_stall_is_the_files() {
+    let mut block = block(
+        &constant_laws(),
+        &[LIFT, INCOMPRESSIBLE, NO_TIP_LOSS, ELEMENTS],
+    );
+    set(&mut block, real::AIRFOIL__DRAG_REYNOLDS_EXPONENT, 0.0);
+    block.update().unwrap();
+    for (alpha, _, drag) in stations(&block) {
+        assert!((drag - 0.01 - 0.5 * alpha * alpha).abs() < 1e-12);
+    }
+    assert_eq!(block.values().reals[real::STALLED_FRACTION], 0.0);
+    set(&mut block, real::COLLECTIVE, 0.6);
+    block.update().unwrap();
+    let beyond = stations(&block).iter().filter(|s| s.0 > 0.2).count();
+    let stalled = block.values().reals[real::STALLED_FRACTION];
+    assert!(beyond > 0 && (stalled - beyond as f64 / 20.0).abs() < 1e-12);
+}
+
+/// `table` reads the same file as lift along A and then C.
+#[test]
+fn a_table_of_laws_is_near_the_polar_that_it_was_made_from() {
+    let thrust = |file: &str, collective: f64, lift: LiftModel| {
+        let mut block = block(file, &[(integer::MODEL__LIFT, lift as i32)]);
+        set(&mut block, real::COLLECTIVE, f64::to_radians(collective));
+        block.update().unwrap();
+        block.values().reals[real::THRUST]
+    };
+    for (collective, tolerance) in [(2.0, 0.02), (5.0, 0.02), (8.0, 0.04), (12.0, 0.07)] {
+        let polar = thrust("naca0015.polar", collective, LiftModel::Table);
+        let laws = thrust("naca0015.txt", collective, LiftModel::Table);
+        assert!(
+            (laws / polar - 1.0).abs() < tolerance,
+            "{collective}: {laws} {polar}"
+        );
+    }
+    // At small angles of attack B lies below A, which `table` has there.
+    let (a, b) = (
+        thrust("naca0015.txt", 5.0, LiftModel::Table),
+        thrust("naca0015.txt", 5.0, LiftModel::ThesisSlope),
+    );
+    assert!(b < a && b > 0.85 * a, "{a} {b}");
+}
+
+/// The shipped file in all that a rotor meets, with every inflow model that has no states.
+#[test]
+fn every_flight_state_is_finite() {
+    let choices = INTEGERS[integer::MODEL__INFLOW].choices;
+    for (i, inflow) in choices.iter().enumerate() {
+        if matches!(*inflow, "pittPetersDynamic" | "petersHe") {
+            continue;
+        }
+        for lift in [LiftModel::ThesisSlope, LiftModel::Table] {
+            let models = [
+                (integer::MODEL__LIFT, lift as i32),
+                (integer::MODEL__INFLOW, i as i32 + 1),
+                (integer::NUMERICS__ELEMENTS, 8),
+            ];
+            let mut block = block("naca0015.txt", &models);
+            for collective in [
+                -180.0, -90.0, -20.0, -3.0, 0.0, 3.0, 10.0, 17.0, 45.0, 90.0, 180.0,
+            ] {
+                for (rpm, forward, climb) in [
+                    (960.0, 0.0, 0.0),
+                    (960.0, 40.0, 3.0),
+                    (960.0, 0.0, -20.0),
+                    (0.0, 20.0, -5.0),
+                    (0.0, 0.0, 0.0),
+                    (20_000.0, 10.0, 0.0),
+                ] {
+                    set(&mut block, real::COLLECTIVE, f64::to_radians(collective));
+                    set(&mut block, real::RPM, rpm);
+                    set(&mut block, real::VELOCITY_1, forward);
+                    set(&mut block, real::VELOCITY_3, climb);
+                    // Outputs that are not finite are an error.
+                    if let Err(error) = block.update() {
+                        panic!("{inflow} {collective} {rpm} {forward} {climb}: {error}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_file_without_lift_slopes_is_refused_with_the_remedy() {
+    for file in ["naca0015.polar", "wheatley-1934.polar"] {
+        let mut block = block(file, &[LIFT]);
+        let message = block.update().unwrap_err().to_string();
+        for part in [
+            "model.lift = thesisSlope",
+            file,
+            "set airfoil.file to a Modelica CombiTable file such as airfoils/naca0015.txt",
+            "model.lift to table",
+        ] {
+            assert!(message.contains(part), "{part:?} is not in: {message}");
+        }
+    }
+    let mut block = block("naca0015.txt", &[LIFT]);
+    block
+        .set_strings(&[string::GEOMETRY__FILE as u32], &["knight-hefner-3.toml"])
+        .unwrap();
+    let message = block.update().unwrap_err().to_string();
+    assert!(
+        message.contains("circle.polar")
+            && message.contains("a station's airfoil in geometry.file"),
+        "{message}"
+    );
+}
