@@ -153,9 +153,8 @@ fn thrust_is_continuous_from_hover_to_the_windmill() {
     ] {
         for edgewise in [0.0, 3.0] {
             let mut block = block(inflow, descent);
-            for (place, value) in [(integer::NUMERICS__ELEMENTS, 8)] {
-                block.set_integers(&[place as u32], &[value]).unwrap();
-            }
+            let elements = integer::NUMERICS__ELEMENTS as u32;
+            block.set_integers(&[elements], &[8]).unwrap();
             set(&mut block, real::VELOCITY_1, edgewise);
             // Low enough that no section stalls: stall folds the blades' own thrust.
             set(&mut block, real::COLLECTIVE, 0.06);
