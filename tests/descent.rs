@@ -144,31 +144,31 @@ fn climb_and_hover_are_momentum_theory_with_every_law() {
 #[test]
 fn thrust_is_continuous_from_hover_to_the_windmill() {
     const STEP: f64 = 4.3e-3;
-    for (inflow, descent, count) in [
-        ("uniform", "measured", 4000),
-        ("drees", "measured", 4000),
-        ("annulus", "measured", 4000),
-        ("finiteBlades", "measured", 4000),
-        ("uniform", "johnson", 4000),
+    // Low enough that no section stalls with the last two: stall folds the blades' own thrust.
+    const HIGH: f64 = 0.14;
+    const LOW: f64 = 0.06;
+    for (inflow, descent, collective) in [
+        ("uniform", "measured", HIGH),
+        ("drees", "measured", HIGH),
+        ("annulus", "measured", HIGH),
+        ("finiteBlades", "measured", HIGH),
+        ("uniform", "johnson", LOW),
     ] {
         for edgewise in [0.0, 3.0] {
             let mut block = block(inflow, descent);
-            let elements = integer::NUMERICS__ELEMENTS as u32;
-            block.set_integers(&[elements], &[8]).unwrap();
             set(&mut block, real::VELOCITY_1, edgewise);
-            // Low enough that no section stalls: stall folds the blades' own thrust.
-            set(&mut block, real::COLLECTIVE, 0.06);
+            set(&mut block, real::COLLECTIVE, collective);
             let mut thrust = |i: usize| descending(&mut block, STEP * i as f64, real::THRUST);
             let hover = thrust(0);
             let mut previous = hover;
             let mut largest = 0.0_f64;
-            for i in 1..count {
+            for i in 1..4000 {
                 let next = thrust(i);
                 largest = largest.max((next - previous).abs() / hover);
                 previous = next;
             }
             // The step's share of the fall or rise; momentum theory jumps by tens of per cent.
-            assert!(largest < 0.02, "{inflow} {descent} {edgewise}: {largest}");
+            assert!(largest < 0.005, "{inflow} {descent} {edgewise}: {largest}");
         }
     }
 }

@@ -6,7 +6,7 @@
 //! as long as the inputs stay the same. So constant inputs give the same answer, to the rounding of
 //! times, whatever the communication step.
 
-use crate::rotor::{Operation, Rotor, SolveError, State};
+use crate::rotor::{Drive, Operation, Rotor, SolveError, State};
 
 /// The states, and the place on the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -77,7 +77,11 @@ pub fn advance(
     loop {
         // Of the speed at the grid point; infinite for a rotor at rest.
         let speed = operation.at_speed_of(&since.state).speed;
-        let cell = (azimuth_step / speed.abs()).min(LONGEST_CELL);
+        let mut cell = (azimuth_step / speed.abs()).min(LONGEST_CELL);
+        if let Drive::Torque { torque, inertia } = operation.drive {
+            // Nor may the speed that a torque gives turn the rotor further.
+            cell = cell.min(libm::sqrt(2.0 * azimuth_step * inertia / torque.abs()));
+        }
         let reaches_grid = left >= cell * (1.0 - 1e-9);
         let part = if reaches_grid { cell } else { left };
         let state = integrate(rotor, operation, &since.state, part, &mut steps)
@@ -90,7 +94,9 @@ pub fn advance(
             });
         }
         left = (left - part).max(0.0);
-        let stands_still = state.largest_change(&since.state) <= still;
+        // A torque, however faint, moves the rotor in the end.
+        let is_free = operation.drive != Drive::Speed;
+        let stands_still = !is_free && state.largest_change(&since.state) <= still;
         since.state = state;
         if stands_still {
             since.state.azimuth += speed * left;

@@ -129,6 +129,12 @@ impl RotorBlock {
     }
 
     /// What was read from which file, and whether the flow went beyond what was read, since the last
+    /// Lets go of the rotor, of which a panic may have left a part undone; the next call makes it anew.
+    pub fn forget_rotor(&mut self) {
+        self.rotor = None;
+        self.current = false;
+    }
+
     /// call.
     pub fn take_notes(&mut self) -> Vec<String> {
         std::mem::take(&mut self.notes)
@@ -387,7 +393,8 @@ fn write_outputs(
     reals[real::POWER] = torque * operation.speed;
     reals[real::THRUST_COEFFICIENT] = thrust_coefficient;
     reals[real::TORQUE_COEFFICIENT] = torque_coefficient;
-    reals[real::POWER_COEFFICIENT] = torque_coefficient; // CP = CQ in these units
+    // CP = CQ in these units, but for a rotor that turns backwards.
+    reals[real::POWER_COEFFICIENT] = torque_coefficient * operation.speed.signum();
     reals[real::FIGURE_OF_MERIT] = if thrust_coefficient > 0.0 && torque_coefficient > 0.0 {
         thrust_coefficient * libm::sqrt(thrust_coefficient) / (SQRT_2 * torque_coefficient)
     } else {

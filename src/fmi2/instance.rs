@@ -80,7 +80,11 @@ pub unsafe fn call(
         function.check(instance.state).map_err(Message::Error)?;
         body(instance)
     }))
-    .unwrap_or_else(|panic| Err(Message::Error(internal_error(&*panic))));
+    .unwrap_or_else(|panic| {
+        // SAFETY: as above.
+        unsafe { (*instance).block.forget_rotor() };
+        Err(Message::Error(internal_error(&*panic)))
+    });
 
     let (status, mut lines) = match outcome {
         Ok(()) => (fmi2Status::fmi2OK, Vec::new()),

@@ -150,7 +150,7 @@ impl Place {
 }
 
 impl Places {
-    /// At most `AZIMUTHS` places.
+    /// At most `AZIMUTHS` places: as many as the disc is averaged over, and more than a rotor has blades.
     pub fn new(places: impl Iterator<Item = Place>) -> Self {
         let nowhere = Place::new(Azimuth::default(), Flap::default(), 0.0);
         let mut all = [nowhere; AZIMUTHS];

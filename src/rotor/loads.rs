@@ -27,6 +27,10 @@ use nalgebra::Vector3;
 /// To which the thrust coefficient is found on which the end of the lift depends.
 const THRUST_TOLERANCE: f64 = 1e-13;
 
+/// States of the inflow that break the symmetry about the shaft, as a part of the speeds in the problem, up to
+/// which they do not count.
+const SYMMETRIC: f64 = 1e-12;
+
 /// Lean of the tip path beyond which one or two blades count as swinging, rad.
 const LARGEST_LEAN: f64 = 1.0;
 
@@ -160,9 +164,12 @@ impl Rotor {
             cyclic_sin,
             hinge: self.models.hinge.offset,
         };
+        // What is left of an asymmetry that dies away is none.
+        let speeds = flow.rotation.abs() * self.geometry.radius + flow.edgewise + flow.climb.abs();
+        let none = SYMMETRIC * speeds;
         let is_inflow_symmetric = match &self.peters_he {
-            Some(wake) => wake.is_axisymmetric(&state.inflow),
-            None => state.field().is_axisymmetric(),
+            Some(wake) => wake.is_axisymmetric(&state.inflow, none),
+            None => state.field().is_axisymmetric(none),
         };
         let is_symmetric = flow.is_axisymmetric() && is_inflow_symmetric;
         let is_blades = match self.models.blades {

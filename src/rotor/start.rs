@@ -29,6 +29,9 @@ const STEP_FOR_SLOPES: f64 = PI / 12.0;
 /// turn more slowly start from rest.
 const MOST_STEPS: f64 = 3000.0;
 
+/// Most steps of the search for it in all. Those that end well take a tenth.
+const MOST_STEPS_IN_ALL: f64 = 20_000.0;
+
 impl Rotor {
     /// The state at the start, with blade 1 at the tail. `azimuth_step` (rad): the largest step.
     pub fn start(
@@ -160,11 +163,16 @@ impl Rotor {
             speed: operation.speed * self.geometry.radius,
             rotation: operation.speed,
         };
+        let mut left = MOST_STEPS_IN_ALL;
         let passed = |x: &DVector<f64>, purpose| -> Result<DVector<f64>, SolveError> {
             let steps = match purpose {
                 newton::Use::Value => steps,
                 newton::Use::Slopes => steps_for_slopes,
             };
+            left -= steps;
+            if left < 0.0 {
+                return Err(SolveError::NoSteadyState);
+            }
             let mut state = scale.state(x);
             for _ in 0..steps as u32 {
                 state = self.step(operation, &state, passage / steps)?;

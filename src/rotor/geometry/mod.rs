@@ -8,6 +8,9 @@ pub use file::RotorFileError;
 
 use thiserror::Error;
 
+/// Most blades of a rotor.
+pub const MOST_BLADES: u32 = 20;
+
 /// Turning sense of the rotor, seen from above.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rotation {
@@ -84,6 +87,12 @@ impl Geometry {
         let fail = |text: String| Err(GeometryError(text));
         if self.blades == 0 {
             return fail("the number of blades is 0; it must be 1 or more".into());
+        }
+        if self.blades > MOST_BLADES {
+            return fail(format!(
+                "the number of blades is {}; it must be {MOST_BLADES} or fewer",
+                self.blades
+            ));
         }
         if !(self.radius.is_finite() && self.radius > 0.0) {
             return fail(format!(
@@ -185,8 +194,9 @@ mod tests {
         let good = Geometry::linear(3, 1.0, 0.2, 0.1, 0.5, -0.1);
         assert_eq!(good.check(), Ok(()));
         type Spoil = fn(&mut Geometry);
-        let cases: [(Spoil, &str); 7] = [
+        let cases: [(Spoil, &str); 8] = [
             (|g| g.blades = 0, "number of blades"),
+            (|g| g.blades = 21, "must be 20 or fewer"),
             (|g| g.radius = -1.0, "radius is -1 m"),
             (|g| g.radius = f64::NAN, "radius is NaN m"),
             (|g| g.stations[0].chord = -0.1, "chord is -0.1 m"),

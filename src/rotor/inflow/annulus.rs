@@ -125,7 +125,8 @@ fn mean_residual(
     lift /= places.len() as f64;
     let resultant = medium.descent.speed(flow.edgewise, flow.climb, far.axial) / speed;
     let induced_part = Scalar::sin(inflow_angle - undisturbed.angle);
-    4.0 * element.tip_loss_factor(sin_inflow) * resultant * induced_part - element.solidity() * lift
+    let factor = element.tip_loss_factor(medium.wake_sine(flow, undisturbed, inflow_angle));
+    4.0 * factor * resultant * induced_part - element.solidity() * lift
 }
 
 /// The velocity induced at an inflow angle, without taking a difference of large numbers.
@@ -145,6 +146,20 @@ struct Medium {
 }
 
 impl Medium {
+    /// Sine of the angle at which the wake leaves the disc, for Prandtl's F: |sin phi| in momentum theory. In
+    /// descent the air that takes up momentum is V', not |V_c + v|, which goes through 0 there: F would go
+    /// through 1 in a spike at phi = 0, and R would fold.
+    fn wake_sine(&self, flow: &DiscFlow, undisturbed: Undisturbed, inflow_angle: f64) -> f64 {
+        let sin = Scalar::sin(inflow_angle);
+        let axial = induced(undisturbed, inflow_angle).axial;
+        if self.descent == Descent::Momentum || flow.climb * axial >= 0.0 {
+            return sin;
+        }
+        let speed = undisturbed.speed * Scalar::cos(inflow_angle - undisturbed.angle).abs();
+        let leaves = self.descent.speed(0.0, flow.climb, axial);
+        if leaves < speed { leaves / speed } else { 1.0 }
+    }
+
     /// What is left near the ground of what would be induced far from it.
     fn at_the_blades(&self, flow: &DiscFlow, far: Induced) -> Induced {
         let left = self.ground.factor(flow.edgewise, far.axial);
@@ -198,7 +213,7 @@ pub fn solve(
         root(start, element.pitch, equation)?
     };
     let induced = medium.at_the_blades(flow, induced(undisturbed, inflow_angle));
-    let factor = element.tip_loss_factor(Scalar::sin(inflow_angle));
+    let factor = element.tip_loss_factor(medium.wake_sine(flow, undisturbed, inflow_angle));
     Ok(Answer {
         induced,
         mean_axial: factor * induced.axial,

@@ -58,7 +58,14 @@ pub fn velocity(
         }
         let alpha = pitch - libm::atan2(through, meets.in_plane);
         let lift = element.lift_coefficient(alpha, speed);
-        factor * speed * lift * meets.flap_cos / element.tip_loss_factor(through / speed)
+        // As in the annuli, the wake leaves with the air that takes up momentum.
+        let is_descent = descent != Descent::Momentum && meets.through * v < 0.0;
+        let leaves = if is_descent {
+            descent.speed(0.0, meets.through, v).min(speed)
+        } else {
+            through
+        };
+        factor * speed * lift * meets.flap_cos / element.tip_loss_factor(leaves / speed)
     };
     let mass_flow = |v: f64| descent.speed(flow.edgewise, meets.through, v);
     let far = uniform::mean_velocity(mass_flow, meets.through, scale, momentum)?;

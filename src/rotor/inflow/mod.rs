@@ -66,9 +66,9 @@ impl Field {
         Self::default().plus(factor, self)
     }
 
-    /// Whether all azimuths are alike.
-    pub fn is_axisymmetric(&self) -> bool {
-        self.cosine == 0.0 && self.sine == 0.0
+    /// Whether all azimuths are alike but for `none` m/s.
+    pub fn is_axisymmetric(&self, none: f64) -> bool {
+        self.cosine.abs() <= none && self.sine.abs() <= none
     }
 
     /// `self + factor * other`.

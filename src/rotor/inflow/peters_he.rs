@@ -329,10 +329,10 @@ impl Wake {
         axial.zip(states).map(|(phi, state)| phi * state).sum()
     }
 
-    /// Whether all azimuths are alike.
-    pub fn is_axisymmetric(&self, states: &[f64]) -> bool {
+    /// Whether all azimuths are alike but for `none` m/s in each state.
+    pub fn is_axisymmetric(&self, states: &[f64], none: f64) -> bool {
         let others = states.iter().take(self.len()).skip(self.axial);
-        others.into_iter().all(|state| *state == 0.0)
+        others.into_iter().all(|state| state.abs() <= none)
     }
 
     /// The states of a field that looks like a linear one: the same mean, and the first functions for its

@@ -59,9 +59,8 @@ impl Boundary {
 
 /// V' at V_x (>= 0), V_c (<= 0) and v (>= 0), m/s: v_h^2/v, v_h such that the model gives v.
 pub fn speed(edgewise: f64, climb: f64, induced: f64) -> f64 {
-    let momentum = libm::hypot(edgewise, climb + induced);
     if induced == 0.0 {
-        return momentum;
+        return libm::hypot(edgewise, climb);
     }
     let surplus = |hover: f64| hover * ratio(edgewise / hover, climb / hover) - induced;
     let end = |at: f64| End {
@@ -85,7 +84,8 @@ pub fn speed(edgewise: f64, climb: f64, induced: f64) -> f64 {
     }
     match bracketed(surplus, low, high, 1e-13 * scale) {
         Ok(hover) => hover * hover / induced,
-        Err(_) => momentum,
+        // Not seen; the rotor's solution then fails with an error.
+        Err(_) => f64::NAN,
     }
 }
 
@@ -199,7 +199,7 @@ fn momentum(edgewise: f64, climb: f64, from: f64, to: f64) -> f64 {
     if low.residual > 0.0 {
         low = end(0.0);
     }
-    bracketed(surplus, low, end(to), 1e-13).unwrap_or(to)
+    bracketed(surplus, low, end(to), 1e-13).unwrap_or(f64::NAN)
 }
 
 struct Knot {
