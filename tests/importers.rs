@@ -264,3 +264,76 @@ fn level_flight_has_the_bucket_of_power_and_the_flapping_of_textbooks() {
         assert!(folder.join(name).metadata().unwrap().len() > 10_000);
     }
 }
+
+/// Known of every helicopter: without its engine the rotor slows down until the collective is lowered, and then
+/// turns by the air that comes from below; straight down that is at 1.7 to 1.9 v_h (Leishman 2006), a
+/// little more where the blades' own drag counts much; and the energy in the rotor is worth a soft landing.
+#[test]
+fn a_helicopter_lands_softly_without_its_engine() {
+    let folder = scratch("engine-off");
+    let words = run(example("engine_off.py").arg("--out").arg(&folder));
+    // FMPy prints what the FMU logs, with its status in brackets.
+    assert!(!words.contains('['), "{words}");
+    let mut text = fs::read_to_string(folder.join("engine-off.csv")).unwrap();
+    for (number, name) in ["normal", "vortexRing", "turbulentWake", "windmillBrake"]
+        .iter()
+        .enumerate()
+    {
+        text = text.replace(name, &number.to_string());
+    }
+    let rows = csv(&text);
+    let between = |from: f64, to: f64| {
+        let chosen = rows
+            .iter()
+            .filter(move |row| (from..to).contains(&value(row, "time")));
+        chosen.collect::<Vec<_>>()
+    };
+    let hover = value(&rows[0], "rpm");
+    let weight = value(&rows[0], "thrust");
+    // Steady up to the failure at 3 s: governor, weight and inflow are in balance from the start.
+    for row in between(0.0, 3.0) {
+        assert!((value(row, "rpm") / hover - 1.0).abs() < 1e-4, "{row:?}");
+        assert!(value(row, "sink_rate").abs() < 1e-3, "{row:?}");
+        assert_eq!(value(row, "flow_state"), 0.0);
+    }
+    // With no torque, the pitch as it was and the rotor's inertia, the speed falls at once as Q/I.
+    let cut = between(3.0, 3.2);
+    let torque = value(cut[0], "rotor_torque");
+    let lost = hover - value(cut[10], "rpm");
+    let duration = value(cut[10], "time") - value(cut[0], "time");
+    let inertia = 2.0 * 1.225 * 2.0 * std::f64::consts::PI * 0.28 * 5.6_f64.powi(4) / 5.0;
+    let expected = torque / inertia * duration * 30.0 / std::f64::consts::PI;
+    assert!((lost / expected - 1.0).abs() < 0.05, "{lost} {expected}");
+    let slowest = between(3.0, 10.0)
+        .iter()
+        .map(|row| value(row, "rpm"))
+        .fold(f64::INFINITY, f64::min);
+    assert!((0.8..0.9).contains(&(slowest / hover)), "{slowest}");
+
+    let steady = between(18.0, 22.0);
+    let hover_inflow = 6.9836; // m/s, of 1200 kg on a radius of 5.6 m at 1.225 kg/m3
+    for row in &steady {
+        let sink = value(row, "sink_rate");
+        assert!((1.75..1.95).contains(&(sink / hover_inflow)), "{row:?}");
+        assert!((value(row, "rpm") / hover - 1.0).abs() < 0.01, "{row:?}");
+        assert!(
+            (value(row, "thrust") / weight - 1.0).abs() < 0.01,
+            "{row:?}"
+        );
+        assert!(value(row, "rotor_torque").abs() < 0.02 * torque, "{row:?}");
+        assert_eq!(value(row, "drive_torque"), 0.0);
+        assert!((1.0..5.0).contains(&value(row, "collective")), "{row:?}");
+    }
+    let mut states: Vec<f64> = rows.iter().map(|row| value(row, "flow_state")).collect();
+    states.dedup();
+    // Through the vortex ring into faster descent than is steady, back, and to rest.
+    assert_eq!(states, [0.0, 1.0, 2.0, 3.0, 2.0, 1.0, 0.0]);
+
+    let last = rows.last().unwrap();
+    assert_eq!(value(last, "height"), 3.0);
+    let touch = value(last, "sink_rate");
+    assert!((0.0..3.0).contains(&touch), "{touch} m/s");
+    // Paid for by the rotor.
+    assert!(value(last, "rpm") < 0.85 * hover);
+    assert!(folder.join("engine-off.png").metadata().unwrap().len() > 10_000);
+}

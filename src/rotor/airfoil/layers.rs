@@ -58,7 +58,8 @@ impl Layers {
             Axis::Reynolds => flow.reynolds.at_least(1.0).ln(),
             Axis::Mach => flow.mach,
         };
-        if number.value() <= self.position[0] {
+        // A flow that is no number has no place among them: it comes from states out of all bounds.
+        if number.value().is_nan() || number.value() <= self.position[0] {
             return (0, None);
         }
         if number.value() >= self.position[last] {
@@ -102,6 +103,7 @@ mod tests {
         }
         let half = libm::sqrt(2e4 * 1.7e5);
         assert!((at(&layers, half, 0.0) - 2.0).abs() < 1e-14);
+        assert_eq!(at(&layers, f64::NAN, 0.0), 1.0);
         let layers = Layers::new(Axis::Mach, vec![0.1, 0.3, 0.7]);
         for (mach, value) in [(0.0, 1.0), (0.1, 1.0), (0.2, 2.0), (0.3, 3.0), (2.0, 4.0)] {
             assert!((at(&layers, 1e5, mach) - value).abs() < 1e-15);

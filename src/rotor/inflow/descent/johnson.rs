@@ -27,8 +27,8 @@ const THROUGH_X: f64 = 1.25;
 const E: f64 = -2.0;
 const V_XM: f64 = 0.95;
 
-/// Difference for the slopes of momentum theory.
-const SMALL: f64 = 1e-5;
+/// Bound on Newton's steps, of which it takes about six; then a bracket takes over.
+const NEWTON_STEPS: u32 = 30;
 
 /// The boundary of instability at a V_x, all V_z in units of v_h.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -106,8 +106,9 @@ fn ratio(edgewise: f64, climb: f64) -> f64 {
     let fade = libm::sqrt(1.0 - libm::pow(share, 6.0));
     let at = |v_z: f64, through: f64, own: f64| Knot {
         at: v_z,
-        value: fade * (through - (own + baseline(0.0, own))),
-        slope: -fade * (1.0 + slope(|z| baseline(edgewise, z), v_z)),
+        value: fade * (through - (own + helicopter(0.0, own))),
+        // The boundary lies above A, where the baseline is momentum theory.
+        slope: -fade * (1.0 + helicopter_slope(edgewise, v_z)),
     };
     let n = at(upper, THROUGH_N, N);
     let x = at(lower, THROUGH_X, X);
@@ -146,20 +147,36 @@ fn baseline(edgewise: f64, climb: f64) -> f64 {
         let knot = Knot {
             at: a,
             value: helicopter(edgewise, a),
-            slope: slope(|z| helicopter(edgewise, z), a),
+            slope: helicopter_slope(edgewise, a),
         };
         through_origin(&knot, b, windmill(edgewise, b), climb)
     }
 }
 
-/// The root of v sqrt(V_x^2 + (V_z + v)^2) = 1 that continues hover.
+/// The root of v sqrt(V_x^2 + (V_z + v)^2) = 1 that continues hover, the largest: by Newton's method from
+/// above, where the left side rises ever faster.
 fn helicopter(edgewise: f64, climb: f64) -> f64 {
-    momentum(
-        edgewise,
-        climb,
-        0.0_f64.max(-climb),
-        1.0 - 0.5 * climb.min(0.0) + climb.abs(),
-    )
+    if edgewise == 0.0 {
+        return -0.5 * climb + libm::sqrt(0.25 * climb * climb + 1.0);
+    }
+    let mut v = 1.0 + climb.abs();
+    for _ in 0..NEWTON_STEPS {
+        let through = climb + v;
+        let flow = libm::sqrt(edgewise * edgewise + through * through);
+        let step = (v * flow - 1.0) / (flow + v * through / flow);
+        v -= step;
+        if step.abs() <= 1e-14 * v.abs() {
+            return v;
+        }
+    }
+    momentum(edgewise, climb, 0.0_f64.max(-climb), 1.0 + climb.abs())
+}
+
+/// dv/dV_z of that root.
+fn helicopter_slope(edgewise: f64, climb: f64) -> f64 {
+    let v = helicopter(edgewise, climb);
+    let through = climb + v;
+    -v * through / (edgewise * edgewise + through * through + v * through)
 }
 
 /// The root that continues fast descent; that of hover where there is none.
@@ -183,10 +200,6 @@ fn momentum(edgewise: f64, climb: f64, from: f64, to: f64) -> f64 {
         low = end(0.0);
     }
     bracketed(surplus, low, end(to), 1e-13).unwrap_or(to)
-}
-
-fn slope(quantity: impl Fn(f64) -> f64, at: f64) -> f64 {
-    (quantity(at + SMALL) - quantity(at)) / SMALL
 }
 
 struct Knot {

@@ -1,0 +1,408 @@
+"""Flies a light helicopter from hover through an engine failure to the ground, in vertical autorotation.
+
+The rotor is the FMU, turned by a torque and not at an imposed speed (driveMode = torque). Around it are, in
+this script, an engine with a governor, a point mass that moves up and down, and a pilot. Straight
+down is the hardest case: there is no forward speed to trade for rotor speed in a flare, so that all that
+cushions the landing is the energy in the rotor.
+
+    python engine_off.py --fmu HelicopterRotor.fmu --out FOLDER
+
+prints the flight and writes into FOLDER engine-off.csv and engine-off.png.
+"""
+
+import argparse
+import csv
+import math
+import sys
+import tempfile
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Slave
+
+# A light helicopter with two heavy blades, near those of the 1950s; sea level.
+GRAVITY = 9.81  # m/s2
+DENSITY = 1.225  # kg/m3
+MASS = 1200.0  # kg
+RADIUS = 5.6  # m; with the mass, a disc loading of 120 N/m2
+CHORD = 0.28  # m; a solidity of 0.032
+BLADES = 2
+RPM = 340.0  # a tip speed of 199 m/s; CT/sigma is 0.08, about half of what stalls the blades
+# Blades with weights in their tips: a Lock number rho a c R^4/I of 5, I of one blade about its root. The
+# rotor then holds 0.5 MJ, the power of hover for four seconds.
+INERTIA = BLADES * DENSITY * 2.0 * math.pi * CHORD * RADIUS**4 / 5.0  # kg m2
+PARAMETERS = {
+    "geometry.numberOfBlades": BLADES,
+    "geometry.radius": RADIUS,
+    "geometry.rootCutout": 0.15,
+    "geometry.chord": CHORD,
+    # The reserve in thrust is bounded by stall: section data at the blades' Reynolds number, 3 million.
+    "airfoil.file": "airfoils/naca0015.polar",
+    "air.model": "constant",
+    "air.density": DENSITY,
+    # Inflow takes time to build up, some tenths of a second: a quick pull of the pitch gives more thrust.
+    "model.inflow": "pittPetersDynamic",
+    "model.descent": "measured",
+    "model.groundEffect": "cheesemanBennett",
+    "driveMode": "torque",
+    "driveInertia": INERTIA,
+}
+
+WEIGHT = MASS * GRAVITY  # N
+SPEED = RPM * math.pi / 30.0  # rad/s
+HOVER_INFLOW = math.sqrt(WEIGHT / (2.0 * DENSITY * math.pi * RADIUS**2))  # v_h, m/s
+
+# Textbooks have helicopters autorotate vertically at 1.7 to 1.9 v_h (Leishman 2006).
+TEXTBOOK = 1.85 * HOVER_INFLOW  # m/s, drawn beside what is flown
+
+# The engine: its governor is a PI controller on rotor speed, between no torque and the most it has. The gains
+# answer 1 % of rotor speed with a tenth of the torque of hover, and make up the rest in a second.
+MOST_TORQUE = 5000.0  # N m, 180 kW
+PROPORTIONAL = 1000.0  # N m/(rad/s)
+INTEGRAL = 1000.0  # N m/rad
+
+# The flight.
+STEP = 0.01  # s; forces and motion take turns. At a fifth of it the touch-down is 2 % faster
+FAILURE = 3.0  # s
+REACTION = 1.0  # s, in which the pilot does nothing: usual in certification
+START_HEIGHT = 250.0  # m, of the hub: enough for the autorotation to become steady
+GROUND_HEIGHT = 3.0  # m, of the hub when the skids touch
+
+# The pilot's collective.
+LOWEST_PITCH, HIGHEST_PITCH = 0.0, 16.0  # deg, the stops
+LOWERING = 8.0  # deg/s, at most
+PULLING = 12.0  # deg/s, at most
+# In autorotation more pitch slows the rotor: pitch follows rotor speed and, slowly, its error.
+PITCH_PER_SPEED = 1.0  # deg/(rad/s)
+PITCH_PER_ANGLE = 0.3  # deg/rad
+# The landing: a constant deceleration down to the speed of touch-down. A weaker one lasts longer than the
+# energy of the rotor does, a stronger one begins too late for the pitch to follow: at 4.5 m/s2 the skids
+# touch at 2.4 m/s, at 7 m/s2 at 3.2. The speed is what the pilot aims at; he misses it, for in the end the
+# pitch is at its stop.
+DECELERATION = 5.5  # m/s2
+TOUCH_DOWN = 1.0  # m/s
+# Pitch rate for acceleration that is missing; 1 deg of pitch is worth about 1 m/s2.
+PITCH_RATE_PER_ACCELERATION = 6.0  # (deg/s)/(m/s2)
+CATCHING = 0.3  # s, in which an error of the sink rate is made up
+
+
+class Rotor:
+    """An instance of the FMU, driven by a torque."""
+
+    def __init__(self, unzipped, description, parameters):
+        self.variables = {v.name: v for v in description.modelVariables}
+        self.choices = {
+            t.name: {item.name: int(item.value) for item in t.items}
+            for t in description.typeDefinitions
+            if t.items
+        }
+        self.slave = FMU2Slave(
+            guid=description.guid,
+            unzipDirectory=unzipped,
+            modelIdentifier=description.coSimulation.modelIdentifier,
+            instanceName="rotor",
+        )
+        self.slave.instantiate()
+        for name, value in parameters.items():
+            self.set(name, value)
+        self.slave.setupExperiment(startTime=0.0)
+        self.slave.enterInitializationMode()
+        self.time = 0.0
+
+    def set(self, name, value):
+        """A number, a text, or the name of an enumeration's item."""
+        variable = self.variables[name]
+        reference = [variable.valueReference]
+        if variable.type == "Enumeration":
+            choice = self.choices[variable.declaredType.name][value]
+            self.slave.setInteger(reference, [choice])
+        elif variable.type == "Integer":
+            self.slave.setInteger(reference, [value])
+        elif variable.type == "String":
+            self.slave.setString(reference, [value])
+        else:
+            self.slave.setReal(reference, [value])
+
+    def get(self, name):
+        return self.slave.getReal([self.variables[name].valueReference])[0]
+
+    def flow_state(self):
+        """Name of the state of the flow through the rotor."""
+        (number,) = self.slave.getInteger([self.variables["flowState"].valueReference])
+        return next(name for name, n in self.choices["FlowState"].items() if n == number)
+
+    def start(self):
+        self.slave.exitInitializationMode()
+
+    def step(self, duration):
+        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=duration)
+        self.time += duration
+
+    def close(self):
+        self.slave.terminate()
+        self.slave.freeInstance()
+
+
+def hover_pitch(rotor):
+    """The collective (deg) of hover, by the secant method; the rotor is being initialised at its rpm."""
+
+    def excess(pitch):
+        rotor.set("collective", math.radians(pitch))
+        return rotor.get("thrust") - WEIGHT
+
+    before, pitch = 6.0, 10.0
+    surplus_before, surplus = excess(before), excess(pitch)
+    for _ in range(20):
+        if abs(surplus) < 1e-6 * WEIGHT:
+            return pitch
+        slope = (surplus - surplus_before) / (pitch - before)
+        before, surplus_before = pitch, surplus
+        pitch -= surplus / slope
+        surplus = excess(pitch)
+    raise RuntimeError("no collective found at which the rotor carries the weight")
+
+
+def limited(value, low, high):
+    return min(max(value, low), high)
+
+
+class Engine:
+    """With its governor; `torque` is that of hover to begin with."""
+
+    def __init__(self, torque):
+        self.held = torque
+
+    def torque(self, time, speed):
+        if time >= FAILURE:
+            return 0.0
+        missing = SPEED - speed
+        self.held += INTEGRAL * missing * STEP
+        return limited(self.held + PROPORTIONAL * missing, 0.0, MOST_TORQUE)
+
+
+class Pilot:
+    """Moves the collective (deg); `landing` is the time at which the pull before the ground begins."""
+
+    def __init__(self, pitch):
+        self.pitch = pitch
+        self.held = None  # the pitch that the rotor speed needs in autorotation, once it turns fast again
+        self.landing = None
+
+    def move(self, time, height, sink, acceleration, speed):
+        """The collective for the next step; `acceleration` is that upwards."""
+        if time < FAILURE + REACTION:
+            return self.pitch
+        # The sink rate from which the deceleration just ends at the ground.
+        left = max(height - GROUND_HEIGHT, 0.0)
+        allowed = math.sqrt(TOUCH_DOWN**2 + 2.0 * DECELERATION * left)
+        if self.landing is None and sink >= allowed:
+            self.landing = time
+        if self.landing is not None:
+            wanted = DECELERATION + (sink - allowed) / CATCHING
+            rate = PITCH_RATE_PER_ACCELERATION * (wanted - acceleration)
+        else:
+            rate = (self.for_speed(speed) - self.pitch) / STEP
+        self.pitch += STEP * limited(rate, -LOWERING, PULLING)
+        self.pitch = limited(self.pitch, LOWEST_PITCH, HIGHEST_PITCH)
+        return self.pitch
+
+    def for_speed(self, speed):
+        """The pitch that brings the rotor back to its speed and holds it there."""
+        excess = speed - SPEED
+        if self.held is None:
+            # Down to the stop until the rotor has nearly its speed again.
+            if excess < -0.05 * SPEED:
+                return LOWEST_PITCH
+            self.held = self.pitch - PITCH_PER_SPEED * excess
+        self.held += PITCH_PER_ANGLE * excess * STEP
+        return self.held + PITCH_PER_SPEED * excess
+
+
+def fly(rotor):
+    """The rows of the table, a row for each step until touch-down, and the times of what happens."""
+    rotor.set("rpm", RPM)
+    rotor.set("heightAboveGround", START_HEIGHT)
+    pitch = hover_pitch(rotor)
+    engine, pilot = Engine(rotor.get("torque")), Pilot(pitch)
+    rotor.set("driveTorque", rotor.get("torque"))
+    rotor.start()
+
+    height, climb, rows = START_HEIGHT, 0.0, []
+    while True:
+        speed = rotor.get("rotorSpeed") * math.pi / 30.0
+        thrust = rotor.get("force[3]")
+        # No drag of the fuselage: it would be some per cent of the weight.
+        acceleration = thrust / MASS - GRAVITY
+        torque = engine.torque(rotor.time, speed)
+        pitch = pilot.move(rotor.time, height, -climb, acceleration, speed)
+        rows.append(
+            {
+                "time": rotor.time,
+                "height": height,
+                "sink_rate": -climb,
+                "collective": pitch,
+                "rpm": rotor.get("rotorSpeed"),
+                "drive_torque": torque,
+                "rotor_torque": rotor.get("torque"),
+                "thrust": thrust,
+                "induced_velocity": rotor.get("inducedVelocity"),
+                "stalled_fraction": rotor.get("stalledFraction"),
+                "flow_state": rotor.flow_state(),
+            }
+        )
+        if height <= GROUND_HEIGHT:
+            show(rows[-1])
+            break
+        if len(rows) % round(1.0 / STEP) == 1:
+            show(rows[-1])
+        if rotor.time > 120.0:
+            raise RuntimeError("the helicopter does not come down")
+        rotor.set("collective", math.radians(pitch))
+        rotor.set("driveTorque", torque)
+        rotor.set("velocity[3]", climb)
+        rotor.set("heightAboveGround", height)
+        rotor.step(STEP)
+        # Symplectic Euler: the new speed moves the mass.
+        climb += acceleration * STEP
+        height = max(height + climb * STEP, GROUND_HEIGHT)
+    return rows, pilot.landing
+
+
+def steady(rows, landing):
+    """Means over the last two seconds before the pull: sink rate (m/s), rotor speed (rpm), pitch (deg)."""
+    chosen = [row for row in rows if landing - 2.0 <= row["time"] < landing]
+    return [sum(row[n] for row in chosen) / len(chosen) for n in ("sink_rate", "rpm", "collective")]
+
+
+def plot(rows, landing, file):
+    """Everything against time, on bands for the states of the flow."""
+    times = [row["time"] for row in rows]
+    end = times[-1]
+    # Name, its words, and its band: the faster the descent, the darker, in black and white too.
+    states = {
+        "normal": ("normal", "white"),
+        "vortexRing": ("vortex ring", "#fbe8c3"),
+        "turbulentWake": ("turbulent wake", "#b5cde8"),
+        "windmillBrake": ("windmill brake", "#8f9fc4"),
+    }
+    starts = [i for i in range(len(rows)) if i == 0 or rows[i]["flow_state"] != rows[i - 1]["flow_state"]]
+    bands = [
+        (times[i], end if j is None else times[j], rows[i]["flow_state"])
+        for i, j in zip(starts, [*starts[1:], None])
+    ]
+    sink, speed, pitch = steady(rows, landing)
+    panels = [
+        ("height of\nthe hub, m", [row["height"] for row in rows]),
+        ("sink rate,\nm/s", [row["sink_rate"] for row in rows]),
+        ("collective,\ndeg", [row["collective"] for row in rows]),
+        ("rotor speed,\nrpm", [row["rpm"] for row in rows]),
+        ("thrust /\nweight", [row["thrust"] / WEIGHT for row in rows]),
+    ]
+    figure, (strip, *axes) = plt.subplots(
+        6,
+        1,
+        figsize=(9.0, 9.4),
+        sharex=True,
+        constrained_layout=True,
+        gridspec_kw={"height_ratios": [0.28, 1.0, 1.0, 1.0, 1.0, 1.0]},
+    )
+    for begin, stop, name in bands:
+        words, color = states[name]
+        for axis in (strip, *axes):
+            axis.axvspan(begin, stop, color=color, linewidth=0.0)
+            axis.axvline(begin, color="0.6", linewidth=0.6)
+        if stop - begin > 1.8:
+            strip.text((begin + stop) / 2.0, 0.5, words, ha="center", va="center", fontsize=9)
+        elif stop - begin > 0.6:
+            short = words.replace(" ", "\n")
+            strip.text((begin + stop) / 2.0, 0.5, short, ha="center", va="center", fontsize=7)
+    strip.set_yticks([])
+    strip.set_ylabel("flow", rotation=0, ha="right", va="center")
+    for axis, (label, values) in zip(axes, panels):
+        axis.plot(times, values, color="black", linewidth=1.6)
+        axis.set_ylabel(label)
+        axis.grid(True, color="0.5", alpha=0.3)
+        for time in (FAILURE, FAILURE + REACTION, landing):
+            axis.axvline(time, color="black", linewidth=0.9, linestyle=":")
+    height_axis, sink_axis, pitch_axis, speed_axis, thrust_axis = axes
+    events = [
+        (FAILURE, "engine fails ", "right", 25.0),
+        (FAILURE + REACTION, " pilot lowers\n the collective", "left", 25.0),
+        (landing, "pilot pulls ", "right", 130.0),
+    ]
+    for time, words, side, height in events:
+        height_axis.text(time, height, words, ha=side, va="bottom", fontsize=9)
+    sink_axis.axhline(TEXTBOOK, color="black", linewidth=0.9, linestyle="--")
+    sink_axis.text(0.2, TEXTBOOK, "1.85 $v_h$", va="bottom", fontsize=9)
+    words = f"{sink:.1f} m/s = {sink / HOVER_INFLOW:.2f} $v_h$"
+    sink_axis.text(16.0, sink - 1.0, words, va="top", fontsize=9)
+    last = rows[-1]
+    note = {"ha": "right", "va": "center", "fontsize": 9, "arrowprops": {"arrowstyle": "-"}}
+    sink_axis.annotate(f"{last['sink_rate']:.1f} m/s", (end, last["sink_rate"]), (end - 2.2, 2.0), **note)
+    pitch_axis.text(16.0, pitch + 1.0, f"{pitch:.1f} deg", va="bottom", fontsize=9)
+    speed_axis.axhline(RPM, color="black", linewidth=0.9, linestyle="--")
+    speed_axis.text(16.0, RPM - 6.0, "held by the collective", va="top", fontsize=9)
+    speed_axis.text(0.2, RPM - 6.0, "held by the\nengine", va="top", fontsize=9)
+    thrust_axis.axhline(1.0, color="black", linewidth=0.9, linestyle="--")
+    for axis in axes:
+        axis.set_xlim(0.0, end)
+    for axis in (height_axis, sink_axis, pitch_axis, thrust_axis):
+        axis.set_ylim(bottom=-0.02 * axis.get_ylim()[1])
+    speed_axis.set_ylim(200.0, 370.0)
+    thrust_axis.set_xlabel("time, s")
+    figure.suptitle("Engine failure in hover, vertical autorotation and landing: HelicopterRotor.fmu")
+    figure.savefig(file, dpi=130)
+    plt.close(figure)
+
+
+def write(rows, file):
+    """All rows of a table."""
+    with file.open("w", newline="", encoding="utf-8") as out:
+        writer = csv.DictWriter(out, fieldnames=list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def show(row):
+    """Prints a row of the table."""
+    print(
+        f"{row['time']:6.2f} {row['height']:7.1f} {row['sink_rate']:6.2f} {row['collective']:11.2f}"
+        f" {row['rpm']:6.1f} {row['thrust']:8.0f}  {row['flow_state']}",
+        flush=True,
+    )
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
+    parser.add_argument("--out", type=Path, default=Path("."), help="folder for table and plot")
+    arguments = parser.parse_args()
+    if not arguments.fmu.is_file():
+        sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
+    arguments.out.mkdir(parents=True, exist_ok=True)
+
+    print("  time  height   sink  collective    rpm   thrust  flow")
+    print("     s       m    m/s         deg               N")
+    with tempfile.TemporaryDirectory() as folder:
+        unzipped = extract(str(arguments.fmu), unzipdir=folder)
+        description = read_model_description(unzipped)
+        rotor = Rotor(unzipped, description, PARAMETERS)
+        rows, landing = fly(rotor)
+        rotor.close()
+    sink, speed, pitch = steady(rows, landing)
+    print(
+        f"Steady autorotation: {sink:.2f} m/s = {sink / HOVER_INFLOW:.2f} v_h at {speed:.0f} rpm,"
+        f" collective {pitch:.2f} deg"
+    )
+    print(f"Touch-down: {rows[-1]['sink_rate']:.2f} m/s at {rows[-1]['rpm']:.0f} rpm")
+    write(rows, arguments.out / "engine-off.csv")
+    plot(rows, landing, arguments.out / "engine-off.png")
+    print(f"Table and plot: {arguments.out / 'engine-off'}.csv, engine-off.png")
+
+
+if __name__ == "__main__":
+    main()
