@@ -1,12 +1,11 @@
 //! The loads of the rotor: all elements at all places, in what the inflow models induce.
 
 use super::{
-    Blades, Drive, Operation, Performance, Rotor, SolveError, State, TipPath,
+    Drive, Operation, Performance, Rotor, SolveError, State,
     airfoil::Similarity,
-    disc::{AZIMUTHS, Azimuth, DiscFlow, Place, Places, WindAxes},
+    disc::{AZIMUTHS, Place},
     element::{Element, LossIn, Section},
-    flapping::{Action, Flap},
-    geometry::Rotation,
+    flapping::Action,
     inflow::{
         Field, Induced, Inflow, Skew, annulus, closed_form,
         descent::FlowState,
@@ -16,33 +15,13 @@ use super::{
         peters_he::{Harmonics, Wake},
         uniform,
     },
-    root::{End, RootError, bracketed},
+    root::RootError,
+    scene::Scene,
     state::MOST_INFLOW_STATES,
-    tip_loss::lifting_share,
     turn::{Turn, mean_thrust},
 };
 use core::f64::consts::PI;
 use nalgebra::Vector3;
-
-/// To which the thrust coefficient is found on which the end of the lift depends.
-const THRUST_TOLERANCE: f64 = 1e-13;
-
-/// States of the inflow that break the symmetry about the shaft, as a part of the speeds in the problem, up to
-/// which they do not count.
-const SYMMETRIC: f64 = 1e-12;
-
-/// Lean of the tip path beyond which one or two blades count as swinging, rad.
-const LARGEST_LEAN: f64 = 1.0;
-
-/// The rotor's motion in axes turned into the wind, and where its blades are.
-pub(super) struct Scene {
-    pub axes: WindAxes,
-    pub flow: DiscFlow,
-    pub gravity: Vector3<f64>,
-    pub places: Places,
-    /// Whether the places are those of the blades, rather than of a mean over the turn.
-    pub is_blades: bool,
-}
 
 /// Sums over elements and places, in the axes of the disc's flow.
 pub(super) struct Sums {
@@ -122,12 +101,6 @@ impl Rotor {
         })
     }
 
-    /// Whether `performance` is that of blades at their azimuths, rather than a mean over a turn.
-    pub fn shows_blades(&self, operation: &Operation, state: &State) -> bool {
-        let operation = &operation.at_speed_of(state);
-        self.scene(operation, state).is_blades
-    }
-
     /// What acts on a blade's hinge.
     pub(super) fn action(&self, operation: &Operation, scene: &Scene, moment: f64) -> Action {
         Action {
@@ -137,222 +110,7 @@ impl Rotor {
         }
     }
 
-    /// Axes into the wind, the disc's flow in them, and the places of the blades.
-    pub(super) fn scene(&self, operation: &Operation, state: &State) -> Scene {
-        let mirror = self.mirror();
-        let Operation {
-            airspeed,
-            angular_velocity,
-            gravity,
-            ..
-        } = operation;
-        let axes = WindAxes::new(airspeed.x, mirror * airspeed.y);
-        let (roll_rate, pitch_rate) =
-            axes.into_wind(mirror * angular_velocity.x, angular_velocity.y);
-        let (gravity_x, gravity_y) = axes.into_wind(gravity.x, mirror * gravity.y);
-        // Cyclic pitch is -cos(psi) and -sin(psi) times these: it turns like (x, y) as well.
-        let (cyclic_cos, cyclic_sin) =
-            axes.into_wind(operation.cyclic_lateral, operation.cyclic_longitudinal);
-        let flow = DiscFlow {
-            rotation: operation.speed + mirror * angular_velocity.z,
-            speed: operation.speed,
-            edgewise: libm::hypot(airspeed.x, airspeed.y),
-            climb: airspeed.z,
-            roll_rate,
-            pitch_rate,
-            cyclic_cos,
-            cyclic_sin,
-            hinge: self.models.hinge.offset,
-        };
-        // What is left of an asymmetry that dies away is none.
-        let speeds = flow.rotation.abs() * self.geometry.radius + flow.edgewise + flow.climb.abs();
-        let none = SYMMETRIC * speeds;
-        let is_inflow_symmetric = match &self.peters_he {
-            Some(wake) => wake.is_axisymmetric(&state.inflow, none),
-            None => state.field().is_axisymmetric(none),
-        };
-        let is_symmetric = flow.is_axisymmetric() && is_inflow_symmetric;
-        let is_blades = match self.models.blades {
-            _ if self.models.hinge.freedom.is_some() => true,
-            Blades::Automatic => !is_symmetric,
-            Blades::Disc => false,
-            Blades::Individual => true,
-        } && self.models.inflow != Inflow::AnnulusClosedForm;
-        let places = if is_blades {
-            self.blades(&axes, state)
-        } else {
-            self.turn(is_symmetric)
-        };
-        Scene {
-            axes,
-            flow,
-            gravity: Vector3::new(gravity_x, gravity_y, gravity.z),
-            places,
-            is_blades,
-        }
-    }
-
-    /// The blades where they are.
-    fn blades(&self, axes: &WindAxes, state: &State) -> Places {
-        let count = self.geometry.blades as usize;
-        let step = 2.0 * PI / count as f64;
-        Places::new((0..count).map(|k| {
-            let psi = state.azimuth + step * k as f64;
-            let (cos, sin) = axes.into_wind(libm::cos(psi), libm::sin(psi));
-            let azimuth = Azimuth { sin, cos };
-            match (&self.models.hinge.freedom, state.flaps.get(k)) {
-                (Some(freedom), Some(flap)) => {
-                    let above = flap.angle - self.models.hinge.precone;
-                    Place::new(azimuth, *flap, -freedom.pitch_flap * above)
-                }
-                _ => self.rigid(azimuth),
-            }
-        }))
-    }
-
-    /// The azimuths to average over: one without a direction where all are alike.
-    fn turn(&self, is_symmetric: bool) -> Places {
-        if is_symmetric {
-            return Places::new([self.rigid(Azimuth::default())].into_iter());
-        }
-        Places::new(self.around.iter().map(|azimuth| self.rigid(*azimuth)))
-    }
-
-    fn rigid(&self, azimuth: Azimuth) -> Place {
-        let flap = Flap {
-            angle: self.models.hinge.precone,
-            rate: 0.0,
-        };
-        Place::new(azimuth, flap, 0.0)
-    }
-
-    /// -1 for a clockwise rotor, which is computed as its mirror image.
-    fn mirror(&self) -> f64 {
-        match self.geometry.rotation {
-            Rotation::CounterClockwise => 1.0,
-            Rotation::Clockwise => -1.0,
-        }
-    }
-
-    /// The cone of the blades, in the axes of the hub.
-    ///
-    /// From three blades on, the mean of the flap angles and twice their means with cos psi and sin psi (the
-    /// multiblade coordinates, Johnson 1980, ch. 8.4). One or two blades say too little: for each, beta =
-    /// a0 - a1 cos psi - b1 sin psi with its first two derivatives gives the cone, and the mean is taken. Blades
-    /// that swing too fast for that are on no cone: their angle counts as coning.
-    fn tip_path(
-        &self,
-        operation: &Operation,
-        state: &State,
-        scene: &Scene,
-        sums: &Sums,
-    ) -> TipPath {
-        let Some(freedom) = &self.models.hinge.freedom else {
-            return TipPath {
-                coning: self.models.hinge.precone,
-                ..TipPath::default()
-            };
-        };
-        let count = scene.places.len() as f64;
-        let mut path = TipPath::default();
-        for (k, place) in scene.places.iter().enumerate() {
-            let psi = state.azimuth + 2.0 * PI * k as f64 / count;
-            let (sin, cos) = (libm::sin(psi), libm::cos(psi));
-            let Flap { angle, rate } = place.flap;
-            let (coning, longitudinal, lateral) = if count > 2.0 {
-                (angle, -2.0 * angle * cos, -2.0 * angle * sin)
-            } else {
-                let action = self.action(operation, scene, sums.hinge_moments[k]);
-                let hinge = &self.models.hinge;
-                let second = freedom.acceleration(hinge, &scene.flow, place, &action)
-                    / (operation.speed * operation.speed);
-                let first = rate / operation.speed;
-                // Not so where the rotor stands still, either.
-                if libm::hypot(first, second) < LARGEST_LEAN {
-                    (
-                        angle + second,
-                        second * cos + first * sin,
-                        second * sin - first * cos,
-                    )
-                } else {
-                    (angle, 0.0, 0.0)
-                }
-            };
-            path.coning += coning / count;
-            path.longitudinal += longitudinal / count;
-            path.lateral += lateral / count;
-        }
-        path
-    }
-
-    /// The loads in a state, with the lift ending where the tip loss says.
-    pub(super) fn fly(
-        &mut self,
-        scene: &Scene,
-        operation: &Operation,
-        state: &State,
-    ) -> Result<Sums, SolveError> {
-        let tip_loss = self.models.tip_loss;
-        let blades = f64::from(self.geometry.blades);
-        if tip_loss.end_at_thrust(blades, 0.0).is_none() {
-            return self.fly_with_shares(scene, operation, state);
-        }
-        // The more thrust, the sooner the lift ends, the less thrust. A rotor that hardly turns has the
-        // airspeed in its coefficient instead of a tip speed, which the formula does not know.
-        let radius = self.geometry.radius;
-        let tip_speed = operation.speed * radius;
-        let square = tip_speed * tip_speed + operation.airspeed.norm_squared();
-        let reference = operation.air.density * PI * radius * radius * square;
-        let mut failure = None;
-        let mut surplus = |coefficient: f64| {
-            let end = tip_loss.end_at_thrust(blades, coefficient).unwrap_or(1.0);
-            self.end_lift_at(end);
-            match self.fly_with_shares(scene, operation, state) {
-                Ok(sums) if reference > 0.0 => sums.force.z.abs() / reference - coefficient,
-                Ok(_) => -coefficient,
-                Err(error) => {
-                    failure = Some(error);
-                    f64::NAN
-                }
-            }
-        };
-        let mut end = |at: f64| End {
-            at,
-            residual: surplus(at),
-        };
-        // With no lift lost the thrust is largest. At the largest coefficient no lift is left.
-        let first = end(0.0);
-        let mut last = end(first.residual.clamp(0.0, blades * blades));
-        if last.residual > 0.0 {
-            last = end(blades * blades);
-        }
-        let ends = (first, last);
-        let solved = if ends.0.residual <= 0.0 {
-            Ok(0.0)
-        } else if ends.1.residual >= 0.0 {
-            Ok(blades * blades) // a drag that alone exceeds it
-        } else {
-            bracketed(&mut surplus, ends.0, ends.1, THRUST_TOLERANCE)
-        };
-        let coefficient = match (failure, solved) {
-            (Some(error), _) => return Err(error),
-            (None, Err(cause)) => return Err(SolveError::LiftEnd(cause)),
-            (None, Ok(coefficient)) => coefficient,
-        };
-        self.end_lift_at(tip_loss.end_at_thrust(blades, coefficient).unwrap_or(1.0));
-        self.fly_with_shares(scene, operation, state)
-    }
-
-    /// Ends the lift of the blades at r/R = `end`.
-    pub(super) fn end_lift_at(&mut self, end: f64) {
-        let half = 0.5 * self.elements.width;
-        let end = end * self.geometry.radius;
-        for (share, radius) in self.lifting_share.iter_mut().zip(&self.elements.radius) {
-            *share = lifting_share(radius - half, radius + half, end);
-        }
-    }
-
-    fn fly_with_shares(
+    pub(super) fn fly_with_shares(
         &mut self,
         scene: &Scene,
         operation: &Operation,

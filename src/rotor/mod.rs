@@ -13,15 +13,18 @@ pub mod element;
 pub mod flapping;
 pub mod geometry;
 pub mod inflow;
+mod lift_end;
 mod loads;
 mod newton;
 mod rates;
 pub mod root;
 pub mod scalar;
+mod scene;
 mod start;
 pub mod state;
 mod text_file;
 pub mod tip_loss;
+mod tip_path;
 mod turn;
 
 use air::Air;
