@@ -235,3 +235,40 @@ fn the_state_of_the_flow_goes_through_its_names_in_descent() {
         assert_eq!(FlowState::from_integer(state), Some(expected));
     }
 }
+
+/// In time, from hover to the windmill and back in a minute: no step of 20 ms changes the thrust by more than a
+/// smooth way through would, and the thrust does not go up and down.
+#[test]
+fn nothing_chatters_on_the_way_through_the_vortex_ring() {
+    // Per step, and turns of the whole way there and back; the many states of Peters & He swing as they enter
+    // the vortex ring.
+    for (inflow, change, most_turns) in [
+        ("annulus", 0.005, 5),
+        ("pittPetersDynamic", 0.005, 13),
+        ("petersHe", 0.05, 20),
+    ] {
+        let mut block = block(inflow, "measured");
+        let elements = integer::NUMERICS__ELEMENTS as u32;
+        block.set_integers(&[elements], &[12]).unwrap();
+        block.start().unwrap();
+        let mut on_the_way = Vec::new();
+        for i in 0..=3000 {
+            let part = 1.0 - (f64::from(i) / 1500.0 - 1.0).abs();
+            set(&mut block, real::VELOCITY_3, -14.0 * part);
+            block.step(0.02).unwrap();
+            on_the_way.push(block.values().reals[real::THRUST]);
+        }
+        let hover = on_the_way[0];
+        let steps = on_the_way.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        let largest = steps.fold(0.0, f64::max) / hover;
+        assert!(largest < change, "{inflow}: {largest}");
+        let slopes: Vec<f64> = on_the_way
+            .windows(2)
+            .map(|pair| pair[1] - pair[0])
+            .collect();
+        let counted = slopes.iter().filter(|s| s.abs() > 1e-6 * hover);
+        let signs: Vec<bool> = counted.map(|s| *s > 0.0).collect();
+        let turns = signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
+        assert!(turns <= most_turns, "{inflow}: {turns} turns");
+    }
+}

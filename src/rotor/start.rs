@@ -130,8 +130,9 @@ impl Rotor {
     }
 
     /// The state that repeats itself from blade to blade: after the time in which each blade comes to where
-    /// the next one was, its flapping is that of the next one and the inflow is the same; of a rotor
-    /// that does not turn, `start`. (Periodic shooting, as for limit cycles: Seydel 2010, "Practical Bifurcation and Stability Analysis", ch. 7.)
+    /// the next one was, its flapping is that of the next one and the inflow is the same; of a rotor that does
+    /// not turn, `start`. (Periodic shooting, as for limit cycles: Seydel 2010, "Practical Bifurcation and
+    /// Stability Analysis", ch. 7.)
     fn periodic(
         &mut self,
         operation: &Operation,
