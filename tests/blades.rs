@@ -355,3 +355,20 @@ fn stations_show_blade_1_on_its_way() {
     let azimuth = block.values().reals[real::AZIMUTH];
     assert!((azimuth - 1.5 * PI).abs() < 1e-9, "{azimuth}");
 }
+
+/// A step of hours is refused at once, and a shorter one goes on from where the rotor was.
+#[test]
+fn a_step_that_is_too_long_is_refused_at_once() {
+    let mut block = flapping_block("pittPetersDynamic");
+    block.start().unwrap();
+    let mut other = flapping_block("pittPetersDynamic");
+    other.start().unwrap();
+    let begin = std::time::Instant::now();
+    let error = block.step(1e4).unwrap_err().to_string();
+    assert!(error.contains("a step of 10000 s is too long"), "{error}");
+    assert!(begin.elapsed().as_secs_f64() < 1.0);
+    block.step(0.01).unwrap();
+    other.step(0.01).unwrap();
+    let answer = |block: &RotorBlock| ANSWER.map(|place| block.values().reals[place].to_bits());
+    assert_eq!(answer(&block), answer(&other));
+}

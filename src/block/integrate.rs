@@ -82,6 +82,13 @@ pub fn advance(
             // Nor may the speed that a torque gives turn the rotor further.
             cell = cell.min(libm::sqrt(2.0 * azimuth_step * inertia / torque.abs()));
         }
+        // Rather at once than after all the work that is allowed.
+        if steps == 0
+            && left / cell * rotor.steps(operation, &since.state, cell) > f64::from(MOST_STEPS)
+            && rotor.never_rests(operation, &since.state)
+        {
+            return Err(SolveError::StepTooLong(duration));
+        }
         let reaches_grid = left >= cell * (1.0 - 1e-9);
         let part = if reaches_grid { cell } else { left };
         let state = integrate(rotor, operation, &since.state, part, &mut steps)

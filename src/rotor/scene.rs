@@ -1,7 +1,7 @@
 //! The rotor's motion in axes turned into the wind, and the places of its blades.
 
 use super::{
-    Blades, Operation, Rotor, State,
+    Blades, Drive, Operation, Rotor, State,
     disc::{Azimuth, DiscFlow, Place, Places, WindAxes},
     flapping::Flap,
     geometry::Rotation,
@@ -29,6 +29,14 @@ impl Rotor {
     pub fn shows_blades(&self, operation: &Operation, state: &State) -> bool {
         let operation = &operation.at_speed_of(state);
         self.scene(operation, state).is_blades
+    }
+
+    /// Whether the states go round with the blades for ever: then no steady state comes in which they rest.
+    pub fn never_rests(&self, operation: &Operation, state: &State) -> bool {
+        let operation = &operation.at_speed_of(state);
+        let scene = self.scene(operation, state);
+        let turns = operation.speed != 0.0 && scene.is_blades && !scene.flow.is_axisymmetric();
+        turns || operation.drive != Drive::Speed
     }
 
     /// Axes into the wind, the disc's flow in them, and the places of the blades.
