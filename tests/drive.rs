@@ -146,10 +146,9 @@ fn wind_from_below_turns_a_rotor_without_an_engine() {
 /// the disc and with the measured thrust, which the angle of the shaft is for: the speed at which the
 /// rotor settles is the measured one within 8 % to mu = 0.4.
 ///
-/// What is left is thrust. Rotor speed goes with sqrt(T/CT), and CT of a rotor without torque is a matter of
-/// its pitch, section and tip loss: at mu = 0.52 and 0.68 the model's is 12 % and more below the measured
-/// one at the same mu (tests/autogiro.rs prints it). There the retreating inner half of the blade is in reversed flow and stall, the
-/// measured pitch contains an elastic twist that belongs to lower speeds, and the section is assumed.
+/// What is left is thrust: rotor speed goes with sqrt(T/CT), and at mu = 0.52 and 0.68 the CT of the model's
+/// rotor without torque is too low at the measured mu. The cause is drag that the assumed section does not
+/// have; tests/autogiro.rs shows it.
 #[test]
 fn an_autogiro_without_an_engine_turns_as_fast_as_measured() {
     let rotor = |rpm: f64, edgewise: f64, alpha: f64| {
