@@ -84,7 +84,7 @@ def momentum(descent):
 
 
 def leishman(descent):
-    """Leishman 2006, eq. (2.99): a quartic through measurements, to V_d/v_h = 2."""
+    """Leishman 2006, section 2.13: a quartic through measurements, to V_d/v_h = 2."""
     if descent > 2.0:
         return momentum(descent)
     x = -descent

@@ -128,13 +128,13 @@ impl RotorBlock {
         Ok(())
     }
 
-    /// What was read from which file, and whether the flow went beyond what was read, since the last
     /// Lets go of the rotor, of which a panic may have left a part undone; the next call makes it anew.
     pub fn forget_rotor(&mut self) {
         self.rotor = None;
         self.current = false;
     }
 
+    /// What was read from which file, and whether the flow went beyond what was read, since the last
     /// call.
     pub fn take_notes(&mut self) -> Vec<String> {
         std::mem::take(&mut self.notes)

@@ -20,7 +20,7 @@ use super::{
     state::MOST_INFLOW_STATES,
     turn::{Turn, mean_thrust},
 };
-use core::f64::consts::PI;
+use core::{cell::Cell, f64::consts::PI};
 use nalgebra::Vector3;
 
 /// Sums over elements and places, in the axes of the disc's flow.
@@ -221,16 +221,16 @@ impl Rotor {
                         answer.mean_induced
                     }
                     Inflow::FiniteBlades => {
+                        let mean = Cell::new(0.0);
                         turn.fly(LossIn::Momentum, |_, place| {
                             let meets = flow.meets(element.radius, place);
-                            let axial =
-                                finite_blades::velocity(&element, &meets, flow, descent, ground);
-                            Ok(Induced {
-                                axial: axial.map_err(unsolved)?,
-                                swirl: 0.0,
-                            })
+                            let answer =
+                                finite_blades::solve(&element, &meets, flow, descent, ground)
+                                    .map_err(unsolved)?;
+                            mean.set(mean.get() + answer.mean_axial / places.len() as f64);
+                            Ok(answer.induced)
                         })?;
-                        turn.mean_induced
+                        mean.get()
                     }
                     _ => {
                         let answer = annulus::solve(&element, flow, places, descent, ground)
@@ -242,7 +242,8 @@ impl Rotor {
             };
             sums.force += turn.force * width;
             sums.moment += turn.moment * width;
-            for (sum, moment) in sums.hinge_moments.iter_mut().zip(turn.hinge_moment_at) {
+            let moments = &turn.hinge_moment_at[..places.len()];
+            for (sum, moment) in sums.hinge_moments.iter_mut().zip(moments) {
                 *sum += moment * width;
             }
             sums.flux += mean_induced * element.radius;
@@ -251,8 +252,7 @@ impl Rotor {
             if turn.stalled > 0.0 {
                 sums.stalled_radius = element.radius_ratio();
             }
-            let load = turn.load(mean_induced);
-            self.loads[i] = load;
+            self.loads[i] = turn.load(mean_induced);
         }
         Ok(sums)
     }

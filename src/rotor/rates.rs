@@ -120,10 +120,10 @@ impl Rotor {
             (Inflow::PittPetersDynamic, _) => {
                 stream.fastest_rate(state.inflow[0], solidity, tip_speed)
             }
-            (_, Some(wake)) if scene.is_blades => {
-                wake.fastest_rate_of_blades(&state.inflow, solidity, tip_speed, &stream)
+            (_, Some(wake)) => {
+                let states = &state.inflow;
+                wake.fastest_rate(states, solidity, tip_speed, &stream, scene.is_blades)
             }
-            (_, Some(wake)) => wake.fastest_rate(&state.inflow, solidity, tip_speed, &stream),
             _ => 0.0,
         };
         let flapping = self.models.hinge.freedom.map_or(0.0, |freedom| {

@@ -61,8 +61,6 @@ pub struct Turn<'a> {
     pub thrust_at: [f64; AZIMUTHS],
     pub hinge_moment_at: [f64; AZIMUTHS],
     load: Load,
-    /// Mean of the axial induced velocity over all places and around the annulus, tip loss taken off, m/s.
-    pub mean_induced: f64,
 }
 
 impl<'a> Turn<'a> {
@@ -84,7 +82,6 @@ impl<'a> Turn<'a> {
             thrust_at: [0.0; AZIMUTHS],
             hinge_moment_at: [0.0; AZIMUTHS],
             load: Load::default(),
-            mean_induced: 0.0,
         }
     }
 
@@ -139,12 +136,6 @@ impl<'a> Turn<'a> {
         );
         self.thrust_at[place] = load.normal * meets.flap_cos;
         self.hinge_moment_at[place] = load.normal * meets.outboard;
-        let sin_inflow = if load.speed > 0.0 {
-            (meets.through + meets.flap_cos * induced) / load.speed
-        } else {
-            0.0
-        };
-        self.mean_induced += share * induced * self.element.tip_loss_factor(sin_inflow);
         if self.element.is_stalled(load) {
             self.stalled += share;
         }

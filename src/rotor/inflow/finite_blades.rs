@@ -21,53 +21,69 @@
 //!
 //! In hover this is the annulus' momentum without swirl. With flow along the disc, V_x, of which the source
 //! says nothing, |U_P + v| becomes Glauert's resultant sqrt(V_x^2 + (U_P + v)^2) (1926, ARC R&M 1111), as
-//! in the other models: without it the inflow would stay that of hover at any speed. A rotor at rest
-//! induces nothing.
+//! in the other models, and in descent what `descent` has for it: without the resultant the inflow would
+//! stay that of hover at any speed. A rotor at rest induces nothing.
 
-use super::{Descent, ground::Ground, uniform};
+use super::{Descent, Induced, annulus::Answer, ground::Ground, uniform};
 use crate::rotor::{
     disc::{DiscFlow, Encounter},
     element::Element,
     root::RootError,
 };
+use core::f64::consts::PI;
 
-/// The velocity v that a blade's element induces along the shaft, m/s.
+/// What a blade's element induces.
 ///
 /// `flow`: of the disc, of which the rotor speed and the speed along the disc count here.
-pub fn velocity(
+pub fn solve(
     element: &Element,
     meets: &Encounter,
     flow: &DiscFlow,
     descent: Descent,
     ground: Ground,
-) -> Result<f64, RootError> {
+) -> Result<Answer, RootError> {
     let scale = libm::hypot(meets.in_plane, meets.through) + flow.edgewise;
     if scale == 0.0 {
-        return Ok(0.0);
+        return Ok(Answer::default());
     }
     let pitch = element.pitch + meets.pitch;
     let forward = if meets.in_plane < 0.0 { -1.0 } else { 1.0 };
-    let factor = element.blades * flow.rotation.abs() * element.chord * forward
-        / (4.0 * core::f64::consts::PI);
-    let momentum = |v: f64| {
-        let left = ground.factor(flow.edgewise, v);
-        let through = meets.through + meets.flap_cos * left * v;
-        let speed = libm::hypot(meets.in_plane, through);
-        if speed == 0.0 {
-            return 0.0;
-        }
-        let alpha = pitch - libm::atan2(through, meets.in_plane);
-        let lift = element.lift_coefficient(alpha, speed);
-        // As in the annuli, the wake leaves with the air that takes up momentum.
+    let strength = element.blades * flow.rotation.abs() * element.chord * forward / (4.0 * PI);
+    // What is left of v near the ground, and the flow that meets the section with it.
+    let met = |v: f64| {
+        let axial = ground.factor(flow.edgewise, v) * v;
+        let through = meets.through + meets.flap_cos * axial;
+        (axial, through, libm::hypot(meets.in_plane, through))
+    };
+    // As in the annuli, the wake leaves with the air that takes up momentum.
+    let factor = |v: f64, through: f64, speed: f64| {
         let is_descent = descent != Descent::Momentum && meets.through * v < 0.0;
         let leaves = if is_descent {
             descent.speed(0.0, meets.through, v).min(speed)
         } else {
             through
         };
-        factor * speed * lift * meets.flap_cos / element.tip_loss_factor(leaves / speed)
+        element.tip_loss_factor(leaves / speed)
+    };
+    let momentum = |v: f64| {
+        let (_, through, speed) = met(v);
+        if speed == 0.0 {
+            return 0.0;
+        }
+        let alpha = pitch - libm::atan2(through, meets.in_plane);
+        let lift = element.lift_coefficient(alpha, speed);
+        strength * speed * lift * meets.flap_cos / factor(v, through, speed)
     };
     let mass_flow = |v: f64| descent.speed(flow.edgewise, meets.through, v);
-    let far = uniform::mean_velocity(mass_flow, meets.through, scale, momentum)?;
-    Ok(ground.factor(flow.edgewise, far) * far)
+    let v = uniform::mean_velocity(mass_flow, meets.through, scale, momentum)?;
+    let (axial, through, speed) = met(v);
+    let share = if speed == 0.0 {
+        1.0
+    } else {
+        factor(v, through, speed)
+    };
+    Ok(Answer {
+        induced: Induced { axial, swirl: 0.0 },
+        mean_axial: share * axial,
+    })
 }

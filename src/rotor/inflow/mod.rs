@@ -83,8 +83,4 @@ impl Field {
     pub fn to_array(self) -> [f64; 3] {
         [self.mean, self.cosine, self.sine]
     }
-
-    pub fn from_array([mean, cosine, sine]: [f64; 3]) -> Self {
-        Self { mean, cosine, sine }
-    }
 }

@@ -281,41 +281,28 @@ impl Wake {
     }
 
     /// A bound of how fast the modes move, 1/s, for steps in time. To what the wake carries away comes
-    /// the damping by the blades with a lift slope of 2 pi, averaged over the turn: `solidity` N c/(pi R),
-    /// `tip_speed` m/s.
+    /// the damping by the blades with a lift slope of 2 pi: `solidity` N c/(pi R), `tip_speed` m/s.
+    /// `is_blades`: where they act one by one, for any number of them at any azimuth, rather than averaged
+    /// over the turn.
     pub fn fastest_rate(
         &self,
         states: &[f64],
         solidity: f64,
         tip_speed: f64,
         stream: &Stream,
+        is_blades: bool,
     ) -> f64 {
-        let Bounds {
-            wake,
-            turning,
-            edgewise,
-            ..
-        } = BOUNDS[self.order - 1];
-        let blades = turning * tip_speed + edgewise * stream.edgewise;
-        self.rate_bound(wake, states, solidity * blades, stream)
-    }
-
-    /// The same where blades act one by one: for any number of them at any azimuth.
-    pub fn fastest_rate_of_blades(
-        &self,
-        states: &[f64],
-        solidity: f64,
-        tip_speed: f64,
-        stream: &Stream,
-    ) -> f64 {
-        let Bounds {
-            wake,
-            turning_trace,
-            edgewise_trace,
-            ..
-        } = BOUNDS[self.order - 1];
-        let blades = turning_trace * tip_speed + edgewise_trace * stream.edgewise;
-        self.rate_bound(wake, states, solidity * blades, stream)
+        let bounds = &BOUNDS[self.order - 1];
+        let (turning, edgewise) = if is_blades {
+            (bounds.turning_trace, bounds.edgewise_trace)
+        } else {
+            (bounds.turning, bounds.edgewise)
+        };
+        let blades = solidity * (turning * tip_speed + edgewise * stream.edgewise);
+        let flow = self.flow(states, stream);
+        // V changes with the states as well, which counts where it nearly vanishes.
+        let carried = flow.total.max(flow.changes) + 2.0 * self.mean(states).abs();
+        (bounds.wake * carried + 2.0 * PI * blades) / stream.radius
     }
 
     /// Mean of v over the disc, m/s.
@@ -348,13 +335,6 @@ impl Wake {
         states[self.axial] = field.cosine / slope;
         states[self.indices.len()] = field.sine / slope;
         states
-    }
-
-    fn rate_bound(&self, wake: f64, states: &[f64], blades: f64, stream: &Stream) -> f64 {
-        let flow = self.flow(states, stream);
-        // V changes with the states as well, which counts where it nearly vanishes.
-        let carried = flow.total.max(flow.changes) + 2.0 * self.mean(states).abs();
-        (wake * carried + 2.0 * PI * blades) / stream.radius
     }
 
     fn radial_at(&self, element: usize) -> &[f64] {
