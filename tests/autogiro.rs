@@ -11,10 +11,10 @@
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
 
-use helicopter_rotor::block::{
-    RotorBlock,
-    variables::{INTEGERS, boolean, integer, real, string},
-};
+#[path = "support/block.rs"]
+mod support;
+
+use helicopter_rotor::block::variables::{boolean, integer, real, string};
 use std::{
     f64::consts::PI,
     fs,
@@ -24,6 +24,7 @@ use std::{
         atomic::{AtomicUsize, Ordering},
     },
 };
+use support::{choice, default_block, project};
 
 const RADIUS: f64 = 6.858;
 const COLLECTIVE: f64 = 0.0497;
@@ -31,15 +32,6 @@ const INERTIA: f64 = 452.8;
 const DENSITY: f64 = 1.0823;
 /// Steps of 3 deg from blade to blade.
 const STEPS: usize = 30;
-
-fn project() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn choice(place: usize, name: &str) -> i32 {
-    let choices = INTEGERS[place].choices;
-    choices.iter().position(|c| *c == name).unwrap() as i32 + 1
-}
 
 /// (mu, value) of a quantity in one of the two files.
 fn measured(file: &str, quantity: &str) -> Vec<(f64, f64)> {
@@ -96,7 +88,7 @@ impl Default for Case<'_> {
 
 /// A flight at a shaft angle, rad.
 fn fly(case: &Case, mu: f64, rpm: f64, alpha: f64) -> Answer {
-    let mut block = RotorBlock::new(project().join("modelDescription/resources"));
+    let mut block = default_block();
     block
         .set_strings(&[string::GEOMETRY__FILE as u32], &[case.rotor])
         .unwrap();

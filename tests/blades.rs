@@ -3,10 +3,13 @@
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
 
+#[path = "support/block.rs"]
+mod support;
+
 use helicopter_rotor::{
     block::{
         RotorBlock,
-        variables::{INTEGERS, boolean, integer, real},
+        variables::{boolean, integer, real},
     },
     rotor::{
         Blades, Drive, Models, Operation, Performance, Rotor, State,
@@ -20,13 +23,10 @@ use helicopter_rotor::{
     },
 };
 use nalgebra::Vector3;
-use std::{f64::consts::PI, path::PathBuf};
+use std::f64::consts::PI;
+use support::{choice, default_block, project, set};
 
 const SPEED: f64 = 100.0;
-
-fn project() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
 
 fn models(inflow: Inflow, blades: Blades) -> Models {
     Models {
@@ -207,14 +207,9 @@ fn ideal_twist_without_drag_has_a_figure_of_merit_of_1() {
     }
 }
 
-fn choice(place: usize, name: &str) -> i32 {
-    let choices = INTEGERS[place].choices;
-    choices.iter().position(|c| *c == name).unwrap() as i32 + 1
-}
-
 /// A block in forward flight with flapping.
 fn flapping_block(inflow: &str) -> RotorBlock {
-    let mut block = RotorBlock::new(project().join("modelDescription/resources"));
+    let mut block = default_block();
     block
         .set_integers(
             &[integer::MODEL__INFLOW as u32],
@@ -226,10 +221,6 @@ fn flapping_block(inflow: &str) -> RotorBlock {
         .unwrap();
     set(&mut block, real::VELOCITY_1, 15.0);
     block
-}
-
-fn set(block: &mut RotorBlock, place: usize, value: f64) {
-    block.set_reals(&[place as u32], &[value]).unwrap();
 }
 
 const ANSWER: [usize; 6] = [

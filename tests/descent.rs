@@ -4,38 +4,27 @@
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
 
+#[path = "support/block.rs"]
+mod support;
+
 use helicopter_rotor::block::{
     RotorBlock,
-    variables::{FlowState, INTEGERS, integer, real, string},
+    variables::{FlowState, integer, real, string},
 };
-use std::{f64::consts::PI, fs, path::PathBuf};
-
-fn project() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
-
-fn choice(place: usize, name: &str) -> i32 {
-    let choices = INTEGERS[place].choices;
-    choices.iter().position(|c| *c == name).unwrap() as i32 + 1
-}
+use std::{f64::consts::PI, fs};
+use support::{choose, default_block, project, set};
 
 fn block(inflow: &str, descent: &str) -> RotorBlock {
-    let mut block = RotorBlock::new(project().join("modelDescription/resources"));
+    let mut block = default_block();
     let pairs = [
         (integer::MODEL__INFLOW, inflow),
         (integer::MODEL__DESCENT, descent),
         (integer::MODEL__BLADES, "disc"),
     ];
     for (place, name) in pairs {
-        block
-            .set_integers(&[place as u32], &[choice(place, name)])
-            .unwrap();
+        choose(&mut block, place, name);
     }
     block
-}
-
-fn set(block: &mut RotorBlock, place: usize, value: f64) {
-    block.set_reals(&[place as u32], &[value]).unwrap();
 }
 
 /// An output in a vertical descent, m/s.

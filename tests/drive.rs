@@ -3,36 +3,25 @@
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
 
+#[path = "support/block.rs"]
+mod support;
+
 use helicopter_rotor::block::{
     RotorBlock,
     variables::{INTEGERS, boolean, integer, real, string},
 };
-use std::{f64::consts::PI, path::PathBuf};
-
-fn choice(place: usize, name: &str) -> i32 {
-    let choices = INTEGERS[place].choices;
-    choices.iter().position(|c| *c == name).unwrap() as i32 + 1
-}
+use std::f64::consts::PI;
+use support::{choose, default_block, get, set};
 
 fn block(choices: &[(usize, &str)], values: &[(usize, f64)]) -> RotorBlock {
-    let resources = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("modelDescription/resources");
-    let mut block = RotorBlock::new(resources);
+    let mut block = default_block();
     for (place, name) in choices {
-        let value = choice(*place, name);
-        block.set_integers(&[*place as u32], &[value]).unwrap();
+        choose(&mut block, *place, name);
     }
     for (place, value) in values {
         set(&mut block, *place, *value);
     }
     block
-}
-
-fn set(block: &mut RotorBlock, place: usize, value: f64) {
-    block.set_reals(&[place as u32], &[value]).unwrap();
-}
-
-fn get(block: &RotorBlock, place: usize) -> f64 {
-    block.values().reals[place]
 }
 
 const TORQUE: (usize, &str) = (integer::DRIVE_MODE, "torque");

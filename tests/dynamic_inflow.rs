@@ -1,28 +1,24 @@
-//! The inflow of Pitt & Peters with its three states, in the disc's mean over a turn: where it stands still, how it gets there, and
-//! that the answer does not depend on how the importer cuts time.
+//! The inflow of Pitt & Peters with its three states, in the disc's mean over a turn: where it stands still,
+//! how it gets there, and that the answer does not depend on how the importer cuts time.
 
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
 
+#[path = "support/block.rs"]
+mod support;
+
 use helicopter_rotor::block::{
     BlockError, RotorBlock,
-    variables::{INTEGERS, integer, real},
+    variables::{integer, real},
 };
-use std::path::PathBuf;
+use support::{choice, default_block, get, set};
 
 const DISC: i32 = 2;
 const STEADY: i32 = 1;
 const REST: i32 = 2;
 
-/// The choice of an inflow model by its name.
-fn inflow(name: &str) -> i32 {
-    let choices = INTEGERS[integer::MODEL__INFLOW].choices;
-    choices.iter().position(|c| *c == name).unwrap() as i32 + 1
-}
-
 fn block(model: &str, initialization: i32) -> RotorBlock {
-    let resources = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("modelDescription/resources");
-    let mut block = RotorBlock::new(resources);
+    let mut block = default_block();
     let places = [
         integer::MODEL__INFLOW,
         integer::MODEL__BLADES,
@@ -30,17 +26,12 @@ fn block(model: &str, initialization: i32) -> RotorBlock {
     ]
     .map(|p| p as u32);
     block
-        .set_integers(&places, &[inflow(model), DISC, initialization])
+        .set_integers(
+            &places,
+            &[choice(integer::MODEL__INFLOW, model), DISC, initialization],
+        )
         .unwrap();
     block
-}
-
-fn set(block: &mut RotorBlock, place: usize, value: f64) {
-    block.set_reals(&[place as u32], &[value]).unwrap();
-}
-
-fn get(block: &RotorBlock, place: usize) -> f64 {
-    block.values().reals[place]
 }
 
 #[test]

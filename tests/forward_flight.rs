@@ -7,7 +7,7 @@
 use helicopter_rotor::{
     block::{
         RotorBlock,
-        variables::{integer, real},
+        variables::{INTEGERS, integer, real},
     },
     rotor::{
         Blades, Drive, Models, Operation, Performance, Rotor,
@@ -406,7 +406,7 @@ fn the_block_turns_motion_into_the_hub_frame_and_loads_out_of_it() {
 }
 
 #[test]
-fn every_inflow_model_is_finite_at_every_advance_climb_pitch_and_speed() {
+fn every_inflow_model_without_states_is_finite_at_every_advance_climb_pitch_and_speed() {
     let mut block = RotorBlock::new(resources());
     let set = |block: &mut RotorBlock, place: usize, value: f64| {
         block.set_reals(&[place as u32], &[value]).unwrap();
@@ -415,7 +415,12 @@ fn every_inflow_model_is_finite_at_every_advance_climb_pitch_and_speed() {
         .set_integers(&[integer::NUMERICS__ELEMENTS as u32], &[8])
         .unwrap();
     let mut count = 0;
-    for inflow in 1..=9 {
+    let choices = INTEGERS[integer::MODEL__INFLOW].choices;
+    for (inflow, name) in (1..).zip(choices) {
+        // Those with states have a start to find, which may not be there: tests/sweep.rs.
+        if ["pittPetersDynamic", "petersHe"].contains(name) {
+            continue;
+        }
         block
             .set_integers(&[integer::MODEL__INFLOW as u32], &[inflow])
             .unwrap();
@@ -428,7 +433,7 @@ fn every_inflow_model_is_finite_at_every_advance_climb_pitch_and_speed() {
                     for degrees in [-20.0_f64, -3.0, 0.0, 8.0, 25.0, 90.0] {
                         set(&mut block, real::COLLECTIVE, degrees.to_radians());
                         // Outputs that are not finite are an error.
-                        block.update().unwrap_or_else(|e| panic!("{inflow}: {e}"));
+                        block.update().unwrap_or_else(|e| panic!("{name}: {e}"));
                         count += 1;
                     }
                 }
