@@ -2,8 +2,10 @@
 //! Neutral of the FMI version.
 
 mod coverage;
+mod flight;
 mod integrate;
 mod location;
+mod outputs;
 mod setup;
 mod shown;
 mod values;
@@ -13,17 +15,14 @@ pub use location::path_from_uri;
 pub use setup::SetupError;
 pub use values::{Stage, ValueError, Values};
 
-use crate::rotor::{
-    self, Drive, Operation, Performance, Rotor, SolveError, Start,
-    air::{Air, STANDARD_GRAVITY},
-};
-use core::f64::consts::{PI, SQRT_2};
+use crate::rotor::{self, Response, Rotor, SolveError, Start};
 use coverage::Coverage;
+use flight::Flight;
 use integrate::Memory;
-use nalgebra::{Matrix3, Vector3};
+use outputs::{write_outputs, write_stations};
 use std::path::PathBuf;
 use thiserror::Error;
-use variables::{AirModel, Causality, DriveMode, FlowState, Initialization, REALS, integer, real};
+use variables::{Causality, FlowState, Initialization, REALS, integer, real};
 
 /// Why the outputs could not be computed; they keep their last values.
 #[derive(Debug, Error, Clone, PartialEq)]
@@ -214,8 +213,9 @@ impl RotorBlock {
     fn publish(&mut self, flight: &Flight, memory: Memory) -> Result<(), BlockError> {
         let mut reals = self.values.reals;
         let rotor = self.rotor()?;
-        let performance = match rotor.performance(&flight.operation, &memory.state) {
-            Ok(performance) => performance,
+        let response = rotor.respond(&flight.operation, &memory.state);
+        let Response { performance, .. } = match response {
+            Ok(response) => response,
             Err(error) => return Err(self.unsolved(error)),
         };
         let turning = flight.operation.at_speed_of(&memory.state);
@@ -246,198 +246,6 @@ impl RotorBlock {
         let note = rotor.and_then(|rotor| self.coverage.note(rotor));
         self.notes.extend(note);
         Ok(())
-    }
-}
-
-/// What the inputs ask of the rotor, and where its hub is turned to.
-struct Flight {
-    shaft: Shaft,
-    operation: Operation,
-}
-
-impl Flight {
-    fn new(values: &Values) -> Result<Self, SetupError> {
-        let reals = &values.reals;
-        let shaft = Shaft::new(reals);
-        let operation = Operation {
-            collective: reals[real::COLLECTIVE],
-            cyclic_longitudinal: reals[real::CYCLIC_LONGITUDINAL],
-            cyclic_lateral: reals[real::CYCLIC_LATERAL],
-            speed: reals[real::RPM] * PI / 30.0,
-            airspeed: shaft.airspeed,
-            angular_velocity: shaft.angular_velocity,
-            gravity: shaft.gravity,
-            hinge_spring: reals[real::FLAPPING__HINGE_SPRING],
-            height: reals[real::HEIGHT_ABOVE_GROUND],
-            drive: match setup::choice(values, integer::DRIVE_MODE, DriveMode::from_integer)? {
-                DriveMode::Speed => Drive::Speed,
-                DriveMode::Torque => Drive::Torque {
-                    torque: reals[real::DRIVE_TORQUE],
-                    inertia: reals[real::DRIVE_INERTIA],
-                },
-            },
-            air: air(values)?,
-        };
-        Ok(Self { shaft, operation })
-    }
-}
-
-/// The hub frame against the ground, and the hub's motion in the hub frame.
-struct Shaft {
-    hub_to_ground: Matrix3<f64>,
-    /// Velocity through the air, m/s.
-    airspeed: Vector3<f64>,
-    /// rad/s.
-    angular_velocity: Vector3<f64>,
-    /// m/s2.
-    gravity: Vector3<f64>,
-}
-
-impl Shaft {
-    /// The hub frame is the ground frame (x forward, y left, z up) turned by `tilt` about its y
-    /// axis, so that positive tilt leans the shaft forward, and then by `lateralTilt` about the x
-    /// axis that came of it, so that positive lateral tilt leans the shaft to the right.
-    fn new(reals: &[f64]) -> Self {
-        let turn = |place: usize| (libm::sin(reals[place]), libm::cos(reals[place]));
-        let (sin_y, cos_y) = turn(real::TILT);
-        let (sin_x, cos_x) = turn(real::LATERAL_TILT);
-        let tilt = Matrix3::new(cos_y, 0.0, sin_y, 0.0, 1.0, 0.0, -sin_y, 0.0, cos_y);
-        let lateral = Matrix3::new(1.0, 0.0, 0.0, 0.0, cos_x, -sin_x, 0.0, sin_x, cos_x);
-        let hub_to_ground = tilt * lateral;
-
-        let vector = |x: usize, y: usize, z: usize| Vector3::new(reals[x], reals[y], reals[z]);
-        let velocity = vector(real::VELOCITY_1, real::VELOCITY_2, real::VELOCITY_3);
-        let wind = vector(real::WIND_1, real::WIND_2, real::WIND_3);
-        let angular_velocity = vector(
-            real::ANGULAR_VELOCITY_1,
-            real::ANGULAR_VELOCITY_2,
-            real::ANGULAR_VELOCITY_3,
-        );
-        Self {
-            hub_to_ground,
-            airspeed: hub_to_ground.tr_mul(&(velocity - wind)),
-            angular_velocity: hub_to_ground.tr_mul(&angular_velocity),
-            gravity: hub_to_ground.tr_mul(&Vector3::new(0.0, 0.0, -STANDARD_GRAVITY)),
-        }
-    }
-}
-
-fn air(values: &Values) -> Result<Air, SetupError> {
-    let reals = &values.reals;
-    Ok(
-        match setup::choice(values, integer::AIR__MODEL, AirModel::from_integer)? {
-            AirModel::Isa => Air::standard(reals[real::ALTITUDE]),
-            AirModel::Constant => {
-                Air::new(reals[real::AIR__DENSITY], reals[real::AIR__TEMPERATURE])
-            }
-        },
-    )
-}
-
-/// Number of stations along the blade: of each quantity so many variables stand in a row.
-const STATIONS: usize = real::STATION_20__RADIUS - real::STATION_1__RADIUS + 1;
-
-/// Tip speed, m/s, up to which a rotor counts as standing still, where coefficients mean nothing.
-const STANDSTILL: f64 = 1e-6;
-
-/// Writes the outputs among the Real variables.
-fn write_outputs(
-    reals: &mut [f64],
-    rotor: &Rotor,
-    performance: &Performance,
-    shaft: &Shaft,
-    operation: &Operation,
-) {
-    let Performance {
-        force: hub_force,
-        moment: hub_moment,
-        torque,
-        ..
-    } = *performance;
-    let thrust = hub_force.z;
-    let force = shaft.hub_to_ground * hub_force;
-    let moment = shaft.hub_to_ground * hub_moment;
-    for (places, vector) in [
-        ([real::FORCE_1, real::FORCE_2, real::FORCE_3], force),
-        ([real::MOMENT_1, real::MOMENT_2, real::MOMENT_3], moment),
-        (
-            [real::HUB_FORCE_1, real::HUB_FORCE_2, real::HUB_FORCE_3],
-            hub_force,
-        ),
-        (
-            [real::HUB_MOMENT_1, real::HUB_MOMENT_2, real::HUB_MOMENT_3],
-            hub_moment,
-        ),
-    ] {
-        for (place, component) in places.into_iter().zip(vector.iter()) {
-            reals[place] = *component;
-        }
-    }
-
-    let air = &operation.air;
-    let geometry = rotor.geometry();
-    let radius = geometry.radius;
-    let tip_speed = operation.speed.abs() * radius;
-    let reference_force = air.density * PI * radius * radius * tip_speed * tip_speed;
-    let per = |quantity: f64, reference: f64| {
-        if tip_speed > STANDSTILL {
-            quantity / reference
-        } else {
-            0.0
-        }
-    };
-    let thrust_coefficient = per(thrust, reference_force);
-    let torque_coefficient = per(torque, reference_force * radius);
-    reals[real::THRUST] = thrust;
-    reals[real::TORQUE] = torque;
-    reals[real::POWER] = torque * operation.speed;
-    reals[real::THRUST_COEFFICIENT] = thrust_coefficient;
-    reals[real::TORQUE_COEFFICIENT] = torque_coefficient;
-    // CP = CQ in these units, but for a rotor that turns backwards.
-    reals[real::POWER_COEFFICIENT] = torque_coefficient * operation.speed.signum();
-    reals[real::FIGURE_OF_MERIT] = if thrust_coefficient > 0.0 && torque_coefficient > 0.0 {
-        thrust_coefficient * libm::sqrt(thrust_coefficient) / (SQRT_2 * torque_coefficient)
-    } else {
-        0.0
-    };
-    reals[real::INDUCED_VELOCITY] = performance.induced_velocity;
-    let airspeed = &operation.airspeed;
-    reals[real::INFLOW_RATIO] = per(airspeed.z + performance.induced_velocity, tip_speed);
-    reals[real::ADVANCE_RATIO] = per(libm::hypot(airspeed.x, airspeed.y), tip_speed);
-    reals[real::ROTOR_SPEED] = match operation.drive {
-        Drive::Speed => reals[real::RPM],
-        Drive::Torque { .. } => operation.speed * 30.0 / PI,
-    };
-    reals[real::CONING] = performance.tip_path.coning;
-    reals[real::LONGITUDINAL_FLAPPING] = performance.tip_path.longitudinal;
-    reals[real::LATERAL_FLAPPING] = performance.tip_path.lateral;
-    reals[real::STALLED_RADIUS] = performance.stalled_radius;
-    reals[real::STALLED_FRACTION] = performance.stalled_fraction;
-    reals[real::TIP_MACH] = tip_speed / air.speed_of_sound;
-    reals[real::TIP_REYNOLDS] = air.density * tip_speed * geometry.tip_chord / air.viscosity;
-    reals[real::AIR_DENSITY] = air.density;
-}
-
-/// Writes what goes on along the blade, at the middles of equal parts from cutout to tip.
-fn write_stations(reals: &mut [f64], rotor: &Rotor) {
-    let geometry = rotor.geometry();
-    let (cutout, blades) = (geometry.cutout(), f64::from(geometry.blades));
-    for i in 0..STATIONS {
-        let part = (i as f64 + 0.5) / STATIONS as f64;
-        let radius = cutout + part * (1.0 - cutout);
-        let load = rotor.load_at(radius);
-        for (first, value) in [
-            (real::STATION_1__RADIUS, radius),
-            (real::STATION_1__ANGLE_OF_ATTACK, load.angle_of_attack),
-            (real::STATION_1__LIFT_COEFFICIENT, load.lift_coefficient),
-            (real::STATION_1__DRAG_COEFFICIENT, load.drag_coefficient),
-            (real::STATION_1__INDUCED_VELOCITY, load.induced_velocity),
-            (real::STATION_1__REYNOLDS, load.reynolds),
-            (real::STATION_1__MACH, load.mach),
-            (real::STATION_1__THRUST_PER_LENGTH, load.thrust / blades),
-        ] {
-            reals[first + i] = value;
-        }
     }
 }
 

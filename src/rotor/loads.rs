@@ -1,7 +1,7 @@
 //! The loads of the rotor: all elements at all places, in what the inflow models induce.
 
 use super::{
-    Drive, Operation, Performance, Rotor, SolveError, State,
+    Drive, Operation, Performance, Response, Rotor, SolveError, State,
     airfoil::Similarity,
     disc::{AZIMUTHS, Place},
     element::{Element, LossIn, Section},
@@ -53,21 +53,43 @@ enum Induction<'a> {
 }
 
 impl Rotor {
-    /// What the rotor does in a state. Allocates nothing.
+    /// What the rotor does in a state, and how the state changes. Allocates nothing.
     ///
     /// A clockwise rotor is computed as the mirror image of a counter-clockwise one.
+    pub fn respond(
+        &mut self,
+        operation: &Operation,
+        state: &State,
+    ) -> Result<Response, SolveError> {
+        let operation = &operation.at_speed_of(state);
+        let scene = self.scene(operation, state);
+        let sums = self.fly(&scene, operation, state)?;
+        Ok(Response {
+            performance: self.performance_in(operation, state, &scene, &sums),
+            rates: self.rates_in(operation, state, &scene, &sums),
+        })
+    }
+
+    /// What the rotor does in a state.
     pub fn performance(
         &mut self,
         operation: &Operation,
         state: &State,
     ) -> Result<Performance, SolveError> {
-        let operation = &operation.at_speed_of(state);
-        let scene = self.scene(operation, state);
-        let sums = self.fly(&scene, operation, state)?;
+        Ok(self.respond(operation, state)?.performance)
+    }
+
+    fn performance_in(
+        &self,
+        operation: &Operation,
+        state: &State,
+        scene: &Scene,
+        sums: &Sums,
+    ) -> Performance {
         let mut moment = sums.moment;
         if let Some(freedom) = &self.models.hinge.freedom {
             for (place, hinge_moment) in scene.places.iter().zip(sums.hinge_moments) {
-                let action = self.action(operation, &scene, hinge_moment);
+                let action = self.action(operation, scene, hinge_moment);
                 let hinge = &self.models.hinge;
                 let up = freedom.hub_moment_excess(hinge, &scene.flow, place, &action);
                 moment += Vector3::new(-place.azimuth.sin, place.azimuth.cos, 0.0) * up;
@@ -89,16 +111,16 @@ impl Rotor {
             induced_velocity,
             sums.force.z / (operation.air.density * PI * radius * radius),
         );
-        Ok(Performance {
+        Performance {
             force: Vector3::new(force_x, mirror * force_y, sums.force.z),
             moment: Vector3::new(mirror * moment_x, moment_y, mirror * around),
             torque: -moment.z,
             induced_velocity,
             stalled_radius: sums.stalled_radius,
             stalled_fraction: sums.stalled / self.elements.len() as f64,
-            tip_path: self.tip_path(operation, state, &scene, &sums),
+            tip_path: self.tip_path(operation, state, scene, sums),
             flow_state,
-        })
+        }
     }
 
     /// What acts on a blade's hinge.

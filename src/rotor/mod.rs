@@ -133,6 +133,13 @@ pub struct Performance {
     pub flow_state: FlowState,
 }
 
+/// What the rotor answers, and how fast its states change, per second.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Response {
+    pub performance: Performance,
+    pub rates: State,
+}
+
 /// The cone of the blades: beta = coning - longitudinal cos psi - lateral sin psi, psi from the tail, rad.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TipPath {

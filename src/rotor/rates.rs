@@ -7,6 +7,8 @@ use super::{
         Inflow,
         pitt_peters::{Loading, Stream},
     },
+    loads::Sums,
+    scene::Scene,
 };
 use core::f64::consts::PI;
 
@@ -34,15 +36,28 @@ impl Rotor {
     /// How fast the states change, per second.
     pub fn rates(&mut self, operation: &Operation, state: &State) -> Result<State, SolveError> {
         let operation = &operation.at_speed_of(state);
+        if !self.has_memory(operation) {
+            return Ok(State {
+                azimuth: operation.speed,
+                ..State::default()
+            });
+        }
+        let scene = self.scene(operation, state);
+        let sums = self.fly(&scene, operation, state)?;
+        Ok(self.rates_in(operation, state, &scene, &sums))
+    }
+
+    pub(super) fn rates_in(
+        &self,
+        operation: &Operation,
+        state: &State,
+        scene: &Scene,
+        sums: &Sums,
+    ) -> State {
         let mut rates = State {
             azimuth: operation.speed,
             ..State::default()
         };
-        if !self.has_memory(operation) {
-            return Ok(rates);
-        }
-        let scene = self.scene(operation, state);
-        let sums = self.fly(&scene, operation, state)?;
         let stream = self.stream(&scene.flow);
         match (&self.models.inflow, &self.peters_he) {
             (Inflow::PittPetersDynamic, _) => {
@@ -69,7 +84,7 @@ impl Rotor {
         if let Some(freedom) = &self.models.hinge.freedom {
             let blades = rates.flaps.iter_mut().zip(scene.places.iter());
             for ((rate, place), moment) in blades.zip(sums.hinge_moments) {
-                let action = self.action(operation, &scene, moment);
+                let action = self.action(operation, scene, moment);
                 rate.angle = place.flap.rate;
                 rate.rate = freedom.acceleration(&self.models.hinge, &scene.flow, place, &action);
             }
@@ -77,7 +92,7 @@ impl Rotor {
         if let Drive::Torque { torque, inertia } = operation.drive {
             rates.speed = (torque + sums.moment.z) / inertia;
         }
-        Ok(rates)
+        rates
     }
 
     /// Number of equal steps that makes a stretch of `duration` s stable.

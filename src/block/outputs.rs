@@ -1,0 +1,112 @@
+//! What the rotor answers, as values of the outputs.
+
+use super::{flight::Shaft, variables::real};
+use crate::rotor::{Drive, Operation, Performance, Rotor};
+use core::f64::consts::{PI, SQRT_2};
+
+/// Number of stations along the blade: of each quantity so many variables stand in a row.
+const STATIONS: usize = real::STATION_20__RADIUS - real::STATION_1__RADIUS + 1;
+
+/// Tip speed, m/s, up to which a rotor counts as standing still, where coefficients mean nothing.
+const STANDSTILL: f64 = 1e-6;
+
+/// Writes the outputs among the Real variables.
+pub fn write_outputs(
+    reals: &mut [f64],
+    rotor: &Rotor,
+    performance: &Performance,
+    shaft: &Shaft,
+    operation: &Operation,
+) {
+    let Performance {
+        force: hub_force,
+        moment: hub_moment,
+        torque,
+        ..
+    } = *performance;
+    let thrust = hub_force.z;
+    let force = shaft.hub_to_ground * hub_force;
+    let moment = shaft.hub_to_ground * hub_moment;
+    for (places, vector) in [
+        ([real::FORCE_1, real::FORCE_2, real::FORCE_3], force),
+        ([real::MOMENT_1, real::MOMENT_2, real::MOMENT_3], moment),
+        (
+            [real::HUB_FORCE_1, real::HUB_FORCE_2, real::HUB_FORCE_3],
+            hub_force,
+        ),
+        (
+            [real::HUB_MOMENT_1, real::HUB_MOMENT_2, real::HUB_MOMENT_3],
+            hub_moment,
+        ),
+    ] {
+        for (place, component) in places.into_iter().zip(vector.iter()) {
+            reals[place] = *component;
+        }
+    }
+
+    let air = &operation.air;
+    let geometry = rotor.geometry();
+    let radius = geometry.radius;
+    let tip_speed = operation.speed.abs() * radius;
+    let reference_force = air.density * PI * radius * radius * tip_speed * tip_speed;
+    let per = |quantity: f64, reference: f64| {
+        if tip_speed > STANDSTILL {
+            quantity / reference
+        } else {
+            0.0
+        }
+    };
+    let thrust_coefficient = per(thrust, reference_force);
+    let torque_coefficient = per(torque, reference_force * radius);
+    reals[real::THRUST] = thrust;
+    reals[real::TORQUE] = torque;
+    reals[real::POWER] = torque * operation.speed;
+    reals[real::THRUST_COEFFICIENT] = thrust_coefficient;
+    reals[real::TORQUE_COEFFICIENT] = torque_coefficient;
+    // CP = CQ in these units, but for a rotor that turns backwards.
+    reals[real::POWER_COEFFICIENT] = torque_coefficient * operation.speed.signum();
+    reals[real::FIGURE_OF_MERIT] = if thrust_coefficient > 0.0 && torque_coefficient > 0.0 {
+        thrust_coefficient * libm::sqrt(thrust_coefficient) / (SQRT_2 * torque_coefficient)
+    } else {
+        0.0
+    };
+    reals[real::INDUCED_VELOCITY] = performance.induced_velocity;
+    let airspeed = &operation.airspeed;
+    reals[real::INFLOW_RATIO] = per(airspeed.z + performance.induced_velocity, tip_speed);
+    reals[real::ADVANCE_RATIO] = per(libm::hypot(airspeed.x, airspeed.y), tip_speed);
+    reals[real::ROTOR_SPEED] = match operation.drive {
+        Drive::Speed => reals[real::RPM],
+        Drive::Torque { .. } => operation.speed * 30.0 / PI,
+    };
+    reals[real::CONING] = performance.tip_path.coning;
+    reals[real::LONGITUDINAL_FLAPPING] = performance.tip_path.longitudinal;
+    reals[real::LATERAL_FLAPPING] = performance.tip_path.lateral;
+    reals[real::STALLED_RADIUS] = performance.stalled_radius;
+    reals[real::STALLED_FRACTION] = performance.stalled_fraction;
+    reals[real::TIP_MACH] = tip_speed / air.speed_of_sound;
+    reals[real::TIP_REYNOLDS] = air.density * tip_speed * geometry.tip_chord / air.viscosity;
+    reals[real::AIR_DENSITY] = air.density;
+}
+
+/// Writes what goes on along the blade, at the middles of equal parts from cutout to tip.
+pub fn write_stations(reals: &mut [f64], rotor: &Rotor) {
+    let geometry = rotor.geometry();
+    let (cutout, blades) = (geometry.cutout(), f64::from(geometry.blades));
+    for i in 0..STATIONS {
+        let part = (i as f64 + 0.5) / STATIONS as f64;
+        let radius = cutout + part * (1.0 - cutout);
+        let load = rotor.load_at(radius);
+        for (first, value) in [
+            (real::STATION_1__RADIUS, radius),
+            (real::STATION_1__ANGLE_OF_ATTACK, load.angle_of_attack),
+            (real::STATION_1__LIFT_COEFFICIENT, load.lift_coefficient),
+            (real::STATION_1__DRAG_COEFFICIENT, load.drag_coefficient),
+            (real::STATION_1__INDUCED_VELOCITY, load.induced_velocity),
+            (real::STATION_1__REYNOLDS, load.reynolds),
+            (real::STATION_1__MACH, load.mach),
+            (real::STATION_1__THRUST_PER_LENGTH, load.thrust / blades),
+        ] {
+            reals[first + i] = value;
+        }
+    }
+}
