@@ -1,5 +1,7 @@
 //! Air: the standard atmosphere, or given values; viscosity and speed of sound.
 
+use super::scalar::Scalar;
+
 /// Specific gas constant of air, J/(kg K), and ratio of specific heats (ISO 2533:1975).
 const GAS_CONSTANT: f64 = 287.052_87;
 const HEAT_RATIO: f64 = 1.4;
@@ -9,51 +11,49 @@ pub const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// The state of the air around the rotor. SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Air {
+pub struct Air<S = f64> {
     /// Density, kg/m3.
-    pub density: f64,
+    pub density: S,
     /// Speed of sound, m/s.
-    pub speed_of_sound: f64,
+    pub speed_of_sound: S,
     /// Dynamic viscosity, Pa s.
-    pub viscosity: f64,
+    pub viscosity: S,
 }
 
-impl Air {
+impl<S: Scalar> Air<S> {
     /// Air of a given density (kg/m3, > 0) and temperature (K, > 0).
     ///
     /// Speed of sound of the ideal gas; viscosity by Sutherland's law with the constants of
     /// ISO 2533:1975, eq. (22): mu = 1.458e-6 T^1.5/(T + 110.4).
-    pub fn new(density: f64, temperature: f64) -> Self {
+    pub fn new(density: S, temperature: S) -> Self {
         Self {
             density,
-            speed_of_sound: libm::sqrt(HEAT_RATIO * GAS_CONSTANT * temperature),
-            viscosity: 1.458e-6 * temperature * libm::sqrt(temperature) / (temperature + 110.4),
+            speed_of_sound: (temperature * (HEAT_RATIO * GAS_CONSTANT)).sqrt(),
+            viscosity: temperature * 1.458e-6 * temperature.sqrt() / (temperature + 110.4),
         }
     }
 
     /// International Standard Atmosphere (ISO 2533:1975) at a geometric altitude above mean sea
     /// level, m, from -2,000 to 20,000: the layer of constant lapse rate 6.5 K/km up to 11 km of
     /// geopotential altitude, above it the layer of constant temperature.
-    pub fn standard(altitude: f64) -> Self {
+    pub fn standard(altitude: S) -> Self {
         const EARTH_RADIUS: f64 = 6_356_766.0;
         const SEA_LEVEL_TEMPERATURE: f64 = 288.15;
         const SEA_LEVEL_PRESSURE: f64 = 101_325.0;
         const LAPSE_RATE: f64 = 0.0065;
         const TROPOPAUSE: f64 = 11_000.0;
 
-        let geopotential = EARTH_RADIUS * altitude / (EARTH_RADIUS + altitude);
-        let below = geopotential.min(TROPOPAUSE);
-        let temperature = SEA_LEVEL_TEMPERATURE - LAPSE_RATE * below;
-        let mut pressure = SEA_LEVEL_PRESSURE
-            * libm::pow(
-                temperature / SEA_LEVEL_TEMPERATURE,
-                STANDARD_GRAVITY / (GAS_CONSTANT * LAPSE_RATE),
-            );
-        if geopotential > TROPOPAUSE {
-            let scale_height = GAS_CONSTANT * temperature / STANDARD_GRAVITY;
-            pressure *= libm::exp((TROPOPAUSE - geopotential) / scale_height);
+        let geopotential = altitude * EARTH_RADIUS / (altitude + EARTH_RADIUS);
+        let below = geopotential.at_most(TROPOPAUSE);
+        let temperature = -(below * LAPSE_RATE) + SEA_LEVEL_TEMPERATURE;
+        let exponent = STANDARD_GRAVITY / (GAS_CONSTANT * LAPSE_RATE);
+        let mut pressure =
+            (temperature / SEA_LEVEL_TEMPERATURE).power(exponent) * SEA_LEVEL_PRESSURE;
+        if geopotential.value() > TROPOPAUSE {
+            let scale_height = temperature * GAS_CONSTANT / STANDARD_GRAVITY;
+            pressure *= ((-geopotential + TROPOPAUSE) / scale_height).exp();
         }
-        Self::new(pressure / (GAS_CONSTANT * temperature), temperature)
+        Self::new(pressure / (temperature * GAS_CONSTANT), temperature)
     }
 }
 

@@ -9,7 +9,7 @@ use core::f64::consts::PI;
 
 /// A blade element. SI units, rad.
 #[derive(Debug, Clone, Copy)]
-pub struct Element<'a> {
+pub struct Element<'a, S = f64> {
     /// Number of blades N.
     pub blades: f64,
     /// Radius of the element's middle, of the root and of the tip, m.
@@ -19,16 +19,16 @@ pub struct Element<'a> {
     /// m.
     pub chord: f64,
     /// Pitch of the section against the disc without cyclic pitch, rad.
-    pub pitch: f64,
+    pub pitch: S,
     /// Share of the element that carries lift, 0 to 1 (tip losses that end it).
-    pub lifting_share: f64,
+    pub lifting_share: S,
     pub tip_loss: TipLoss,
     pub section: Section<'a>,
     pub model: &'a SectionModel,
     /// Reynolds and Mach number of a flow of 1 m/s.
-    pub unit_flow: Similarity<f64>,
+    pub unit_flow: Similarity<S>,
     /// kg/m3.
-    pub density: f64,
+    pub density: S,
 }
 
 /// The airfoils of the stations on either side of an element, whose coefficients are mixed.
@@ -50,22 +50,36 @@ pub enum LossIn {
 }
 
 /// The loads of one blade's section per unit of radius, N/m, and the flow that meets it.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct SectionLoad {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SectionLoad<S = f64> {
     /// Along the shaft, up.
-    pub normal: f64,
+    pub normal: S,
     /// In the disc, against the motion of the blade.
-    pub tangential: f64,
+    pub tangential: S,
     /// rad, between -pi and pi.
-    pub angle_of_attack: f64,
+    pub angle_of_attack: S,
     /// m/s.
-    pub speed: f64,
+    pub speed: S,
     /// Of the element as a whole, with its tip loss.
-    pub lift_coefficient: f64,
-    pub drag_coefficient: f64,
+    pub lift_coefficient: S,
+    pub drag_coefficient: S,
 }
 
-impl Element<'_> {
+impl<S: Scalar> SectionLoad<S> {
+    /// Of a section in still air, and of one whose angle of attack nobody asks for.
+    pub fn none() -> Self {
+        Self {
+            normal: S::zero(),
+            tangential: S::zero(),
+            angle_of_attack: S::zero(),
+            speed: S::zero(),
+            lift_coefficient: S::zero(),
+            drag_coefficient: S::zero(),
+        }
+    }
+}
+
+impl<S: Scalar> Element<'_, S> {
     /// Local solidity N c/(2 pi r).
     pub fn solidity(&self) -> f64 {
         self.blades * self.chord / (2.0 * PI * self.radius)
@@ -76,7 +90,7 @@ impl Element<'_> {
     }
 
     /// The section's similarity numbers at a speed, m/s.
-    pub fn similarity<S: Scalar>(&self, speed: S) -> Similarity<S> {
+    pub fn similarity(&self, speed: S) -> Similarity<S> {
         Similarity {
             reynolds: speed * self.unit_flow.reynolds,
             mach: speed * self.unit_flow.mach,
@@ -84,21 +98,21 @@ impl Element<'_> {
     }
 
     /// Lift coefficient of the whole element, of which the share `lifting_share` carries lift.
-    pub fn lift_coefficient<S: Scalar>(&self, alpha: S, speed: S) -> S {
+    pub fn lift_coefficient(&self, alpha: S, speed: S) -> S {
         let flow = self.similarity(speed);
         self.section
-            .mixed(|airfoil| airfoil.lift_coefficient(self.model, self.pitch, alpha, flow))
+            .mixed(|airfoil| airfoil.lift_coefficient(self.model, self.pitch.value(), alpha, flow))
             * self.lifting_share
     }
 
-    pub fn drag_coefficient<S: Scalar>(&self, alpha: S, speed: S) -> S {
+    pub fn drag_coefficient(&self, alpha: S, speed: S) -> S {
         let flow = self.similarity(speed);
         self.section
             .mixed(|airfoil| airfoil.drag_coefficient(self.model, alpha, flow))
     }
 
     /// Ratio of the mean induced velocity around the annulus to that at the blade.
-    pub fn tip_loss_factor<S: Scalar>(&self, sin_inflow: S) -> S {
+    pub fn tip_loss_factor(&self, sin_inflow: S) -> S {
         let span = Span {
             blades: self.blades,
             radius_ratio: self.radius_ratio(),
@@ -111,23 +125,23 @@ impl Element<'_> {
     /// motion of the blade and `through` down through the disc (m/s), thesis eqs. (74) to (76)
     /// and (83), (84) without small angles. The flow along the blade has no effect on a section
     /// (independence principle), and none on its drag here.
-    pub fn load(&self, pitch: f64, in_plane: f64, through: f64, loss: LossIn) -> SectionLoad {
-        let speed = libm::hypot(in_plane, through);
-        if speed == 0.0 {
+    pub fn load(&self, pitch: S, in_plane: S, through: S, loss: LossIn) -> SectionLoad<S> {
+        let speed = in_plane.hypot(through);
+        if speed.value() == 0.0 {
             return SectionLoad {
                 angle_of_attack: wrapped(pitch),
-                ..SectionLoad::default()
+                ..SectionLoad::none()
             };
         }
         let (sin, cos) = (through / speed, in_plane / speed);
-        let alpha = wrapped(pitch - libm::atan2(through, in_plane));
+        let alpha = wrapped(pitch - through.atan2(in_plane));
         let lift = self.lift_coefficient(alpha, speed)
             * match loss {
-                LossIn::Momentum => 1.0,
+                LossIn::Momentum => S::one(),
                 LossIn::Lift => self.tip_loss_factor(sin),
             };
         let drag = self.drag_coefficient(alpha, speed);
-        let pressure = 0.5 * self.density * speed * speed * self.chord;
+        let pressure = self.density * 0.5 * speed * speed * self.chord;
         SectionLoad {
             normal: pressure * (lift * cos - drag * sin),
             tangential: pressure * (lift * sin + drag * cos),
@@ -140,14 +154,15 @@ impl Element<'_> {
 
     /// Whether a section in this flow is beyond the first peak of its lift, to either side. Still
     /// air stalls nothing.
-    pub fn is_stalled(&self, load: &SectionLoad) -> bool {
+    pub fn is_stalled(&self, load: &SectionLoad<S>) -> bool {
         let flow = self.similarity(load.speed);
-        let limit = |side: fn((f64, f64)) -> f64| {
+        let limit = |side: fn((S, S)) -> S| {
             self.section
                 .mixed(|airfoil| side(airfoil.stall_angles(flow)))
+                .value()
         };
-        let alpha = load.angle_of_attack;
-        load.speed > 0.0 && (alpha < limit(|s| s.0) || alpha > limit(|s| s.1))
+        let alpha = load.angle_of_attack.value();
+        load.speed.value() > 0.0 && (alpha < limit(|s| s.0) || alpha > limit(|s| s.1))
     }
 }
 

@@ -23,15 +23,26 @@
 use super::{
     Operation,
     disc::{DiscFlow, Place},
+    scalar::Scalar,
 };
 use core::f64::consts::PI;
 use nalgebra::Vector3;
 
 /// How one blade flaps: angle above the plane perpendicular to the shaft, rad, and its rate, rad/s.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Flap {
-    pub angle: f64,
-    pub rate: f64,
+pub struct Flap<S = f64> {
+    pub angle: S,
+    pub rate: S,
+}
+
+impl<S: Scalar> Flap<S> {
+    /// Of a blade that does not flap, at an angle, rad.
+    pub fn rigid(angle: f64) -> Self {
+        Self {
+            angle: S::constant(angle),
+            rate: S::zero(),
+        }
+    }
 }
 
 /// How the blades are held. Blades that do not flap are rigid at the precone angle.
@@ -57,13 +68,13 @@ pub struct Freedom {
 
 /// What acts on a blade besides its own motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Action {
+pub struct Action<S = f64> {
     /// Moment of the air about the hinge, up, N.m.
-    pub moment: f64,
+    pub moment: S,
     /// N.m/rad.
-    pub spring: f64,
+    pub spring: S,
     /// Acceleration of gravity in the axes of the disc's flow, m/s2.
-    pub gravity: Vector3<f64>,
+    pub gravity: Vector3<S>,
 }
 
 impl Freedom {
@@ -77,38 +88,38 @@ impl Freedom {
     }
 
     /// beta'' of a blade, rad/s2.
-    pub fn acceleration(
+    pub fn acceleration<S: Scalar>(
         &self,
         hinge: &Hinge,
-        flow: &DiscFlow,
-        place: &Place,
-        action: &Action,
-    ) -> f64 {
+        flow: &DiscFlow<S>,
+        place: &Place<S>,
+        action: &Action<S>,
+    ) -> S {
         let (sin, cos) = (place.flap_sin, place.flap_cos);
         let (radial, tangential) = flow.hub_rates(place.azimuth);
         let rotation = flow.rotation;
         let first = self.first_moment();
         let offset_moment = hinge.offset * first;
         let outwards = -action.gravity.x * place.azimuth.cos - action.gravity.y * place.azimuth.sin;
-        let weight = first * (cos * action.gravity.z - sin * outwards);
+        let weight = (cos * action.gravity.z - sin * outwards) * first;
         let spring = action.spring * (place.flap.angle - hinge.precone);
-        let turning = -flow.speed * radial * (self.inertia + offset_moment * cos);
+        let turning = -flow.speed * radial * (cos * offset_moment + self.inertia);
         let across = (rotation * cos - radial * sin)
-            * (offset_moment * radial + self.inertia * (radial * cos + rotation * sin));
+            * (radial * offset_moment + (radial * cos + rotation * sin) * self.inertia);
         let centrifugal =
-            offset_moment * sin * (radial * radial + tangential * tangential + rotation * rotation);
+            sin * offset_moment * (radial * radial + tangential * tangential + rotation * rotation);
         (action.moment - spring + weight + turning - across - centrifugal) / self.inertia
     }
 
     /// By how much the moment that the blade hands to the hub about -e_t (up) exceeds that of the air
     /// about the hub's centre, N.m: k (beta - beta_p) - M - h integral of a_z dm.
-    pub fn hub_moment_excess(
+    pub fn hub_moment_excess<S: Scalar>(
         &self,
         hinge: &Hinge,
-        flow: &DiscFlow,
-        place: &Place,
-        action: &Action,
-    ) -> f64 {
+        flow: &DiscFlow<S>,
+        place: &Place<S>,
+        action: &Action<S>,
+    ) -> S {
         let (sin, cos) = (place.flap_sin, place.flap_cos);
         let (radial, tangential) = flow.hub_rates(place.azimuth);
         let rate = place.flap.rate;
@@ -119,13 +130,13 @@ impl Freedom {
         }
         let acceleration = self.acceleration(hinge, flow, place, action);
         // beta'' and beta'^2, Coriolis, w' x r, and w x (w x r), summed over the blade's mass.
-        let out = hinge.offset * self.mass() + first * cos;
-        let up = first * sin;
-        let inertia = first * (cos * acceleration - sin * rate * rate)
-            + 2.0 * tangential * rate * up
+        let out = cos * first + hinge.offset * self.mass();
+        let up = sin * first;
+        let inertia = (cos * acceleration - sin * rate * rate) * first
+            + tangential * 2.0 * rate * up
             + (flow.speed + flow.rotation) * radial * out
             - up * (radial * radial + tangential * tangential);
-        spring - action.moment - hinge.offset * inertia
+        spring - action.moment - inertia * hinge.offset
     }
 
     /// An estimate of how fast a blade swings and comes to rest, 1/s, with a lift slope of 2 pi: `chord` (m)

@@ -16,6 +16,7 @@ use super::{
         uniform,
     },
     root::RootError,
+    scalar::Scalar,
     scene::Scene,
     state::MOST_INFLOW_STATES,
     turn::{Turn, mean_thrust},
@@ -24,43 +25,43 @@ use core::{cell::Cell, f64::consts::PI};
 use nalgebra::Vector3;
 
 /// Sums over elements and places, in the axes of the disc's flow.
-pub(super) struct Sums {
+pub(super) struct Sums<S = f64> {
     /// Of the air.
-    pub force: Vector3<f64>,
-    pub moment: Vector3<f64>,
+    pub force: Vector3<S>,
+    pub moment: Vector3<S>,
     /// Moment of the air about one blade's hinge, N.m, at each place.
-    pub hinge_moments: [f64; AZIMUTHS],
+    pub hinge_moments: [S; AZIMUTHS],
     /// What drives the states of Peters & He, m2/s2.
-    pub loading: [f64; MOST_INFLOW_STATES],
-    flux: f64,
+    pub loading: [S; MOST_INFLOW_STATES],
+    flux: S,
     area: f64,
     stalled: f64,
     stalled_radius: f64,
 }
 
 /// What induces the velocity at the blades.
-enum Induction<'a> {
+enum Induction<'a, S> {
     /// The elements themselves.
     Elements,
     /// A distribution over the disc.
-    Field(Field),
+    Field(Field<S>),
     /// The states of Peters & He, in the axes of the disc's flow, with the azimuths' harmonics.
     Series {
         wake: &'a Wake,
-        states: &'a [f64],
-        harmonics: &'a [Harmonics],
+        states: &'a [S],
+        harmonics: &'a [Harmonics<S>],
     },
 }
 
-impl Rotor {
+impl<S: Scalar> Rotor<S> {
     /// What the rotor does in a state, and how the state changes. Allocates nothing.
     ///
     /// A clockwise rotor is computed as the mirror image of a counter-clockwise one.
     pub fn respond(
         &mut self,
-        operation: &Operation,
-        state: &State,
-    ) -> Result<Response, SolveError> {
+        operation: &Operation<S>,
+        state: &State<S>,
+    ) -> Result<Response<S>, SolveError> {
         let operation = &operation.at_speed_of(state);
         let scene = self.scene(operation, state);
         let sums = self.fly(&scene, operation, state)?;
@@ -73,26 +74,26 @@ impl Rotor {
     /// What the rotor does in a state.
     pub fn performance(
         &mut self,
-        operation: &Operation,
-        state: &State,
-    ) -> Result<Performance, SolveError> {
+        operation: &Operation<S>,
+        state: &State<S>,
+    ) -> Result<Performance<S>, SolveError> {
         Ok(self.respond(operation, state)?.performance)
     }
 
     fn performance_in(
         &self,
-        operation: &Operation,
-        state: &State,
-        scene: &Scene,
-        sums: &Sums,
-    ) -> Performance {
+        operation: &Operation<S>,
+        state: &State<S>,
+        scene: &Scene<S>,
+        sums: &Sums<S>,
+    ) -> Performance<S> {
         let mut moment = sums.moment;
         if let Some(freedom) = &self.models.hinge.freedom {
             for (place, hinge_moment) in scene.places.iter().zip(sums.hinge_moments) {
                 let action = self.action(operation, scene, hinge_moment);
                 let hinge = &self.models.hinge;
                 let up = freedom.hub_moment_excess(hinge, &scene.flow, place, &action);
-                moment += Vector3::new(-place.azimuth.sin, place.azimuth.cos, 0.0) * up;
+                moment += Vector3::new(-place.azimuth.sin, place.azimuth.cos, S::zero()) * up;
             }
         }
         // A free shaft hands on to the hub what drives it; the rest speeds the rotor up.
@@ -106,14 +107,14 @@ impl Rotor {
         let radius = self.geometry.radius;
         let induced_velocity = sums.flux / sums.area;
         let flow_state = FlowState::of(
-            scene.flow.edgewise,
-            scene.flow.climb,
-            induced_velocity,
-            sums.force.z / (operation.air.density * PI * radius * radius),
+            scene.flow.edgewise.value(),
+            scene.flow.climb.value(),
+            induced_velocity.value(),
+            (sums.force.z / (operation.air.density * PI * radius * radius)).value(),
         );
         Performance {
-            force: Vector3::new(force_x, mirror * force_y, sums.force.z),
-            moment: Vector3::new(mirror * moment_x, moment_y, mirror * around),
+            force: Vector3::new(force_x, force_y * mirror, sums.force.z),
+            moment: Vector3::new(moment_x * mirror, moment_y, around * mirror),
             torque: -moment.z,
             induced_velocity,
             stalled_radius: sums.stalled_radius,
@@ -124,7 +125,12 @@ impl Rotor {
     }
 
     /// What acts on a blade's hinge.
-    pub(super) fn action(&self, operation: &Operation, scene: &Scene, moment: f64) -> Action {
+    pub(super) fn action(
+        &self,
+        operation: &Operation<S>,
+        scene: &Scene<S>,
+        moment: S,
+    ) -> Action<S> {
         Action {
             moment,
             spring: operation.hinge_spring,
@@ -134,10 +140,10 @@ impl Rotor {
 
     pub(super) fn fly_with_shares(
         &mut self,
-        scene: &Scene,
-        operation: &Operation,
-        state: &State,
-    ) -> Result<Sums, SolveError> {
+        scene: &Scene<S>,
+        operation: &Operation<S>,
+        state: &State<S>,
+    ) -> Result<Sums<S>, SolveError> {
         match self.models.inflow {
             Inflow::Annulus | Inflow::AnnulusClosedForm | Inflow::FiniteBlades => {
                 self.sums(scene, operation, &Induction::Elements)
@@ -163,7 +169,7 @@ impl Rotor {
                 let mean = wake.mean(&states);
                 let left = self.ground(operation).factor(scene.flow.edgewise, mean);
                 states.iter_mut().for_each(|state| *state *= left);
-                let mut harmonics = [Wake::harmonics(1.0, 0.0); AZIMUTHS];
+                let mut harmonics = [Wake::harmonics(S::one(), S::zero()); AZIMUTHS];
                 for (slot, place) in harmonics.iter_mut().zip(scene.places.iter()) {
                     *slot = Wake::harmonics(place.azimuth.cos, place.azimuth.sin);
                 }
@@ -181,16 +187,16 @@ impl Rotor {
 
     fn sums(
         &mut self,
-        scene: &Scene,
-        operation: &Operation,
-        induction: &Induction,
-    ) -> Result<Sums, SolveError> {
+        scene: &Scene<S>,
+        operation: &Operation<S>,
+        induction: &Induction<S>,
+    ) -> Result<Sums<S>, SolveError> {
         let mut sums = Sums {
             force: Vector3::zeros(),
             moment: Vector3::zeros(),
-            hinge_moments: [0.0; AZIMUTHS],
-            loading: [0.0; MOST_INFLOW_STATES],
-            flux: 0.0,
+            hinge_moments: [S::zero(); AZIMUTHS],
+            loading: [S::zero(); MOST_INFLOW_STATES],
+            flux: S::zero(),
             area: 0.0,
             stalled: 0.0,
             stalled_radius: 0.0,
@@ -220,16 +226,13 @@ impl Rotor {
                     harmonics,
                 } => {
                     turn.fly(LossIn::Lift, |k, _| {
-                        Ok(Induced {
-                            axial: wake.velocity(states, i, &harmonics[k]),
-                            swirl: 0.0,
-                        })
+                        Ok(Induced::axial(wake.velocity(states, i, &harmonics[k])))
                     })?;
                     let blades = element.blades / places.len() as f64;
                     for (thrust, harmonics) in
                         turn.thrust_at.iter().zip(*harmonics).take(places.len())
                     {
-                        let force = blades * thrust * width / (operation.air.density * square);
+                        let force = *thrust * blades * width / (operation.air.density * square);
                         wake.add_load(&mut sums.loading, i, harmonics, force);
                     }
                     wake.mean_at(states, i)
@@ -243,7 +246,7 @@ impl Rotor {
                         answer.mean_induced
                     }
                     Inflow::FiniteBlades => {
-                        let mean = Cell::new(0.0);
+                        let mean = Cell::new(S::zero());
                         turn.fly(LossIn::Momentum, |_, place| {
                             let meets = flow.meets(element.radius, place);
                             let answer =
@@ -262,11 +265,11 @@ impl Rotor {
                     }
                 },
             };
-            sums.force += turn.force * width;
-            sums.moment += turn.moment * width;
+            sums.force += turn.force * S::constant(width);
+            sums.moment += turn.moment * S::constant(width);
             let moments = &turn.hinge_moment_at[..places.len()];
             for (sum, moment) in sums.hinge_moments.iter_mut().zip(moments) {
-                *sum += moment * width;
+                *sum += *moment * width;
             }
             sums.flux += mean_induced * element.radius;
             sums.area += element.radius;
@@ -283,14 +286,14 @@ impl Rotor {
     pub(super) fn field(
         &self,
         skew: Skew,
-        scene: &Scene,
-        operation: &Operation,
-    ) -> Result<Field, SolveError> {
+        scene: &Scene<S>,
+        operation: &Operation<S>,
+    ) -> Result<Field<S>, SolveError> {
         let flow = &scene.flow;
         let radius = self.geometry.radius;
         let tip_speed = flow.rotation.abs() * radius;
         let ground = self.ground(operation);
-        let distributed = |mean: f64| {
+        let distributed = |mean: S| {
             let through = flow.climb + mean;
             let coefficients = skew.coefficients(flow.edgewise, through, tip_speed);
             let Coefficients { kx, ky } = coefficients;
@@ -302,36 +305,36 @@ impl Rotor {
             field.scaled(ground.factor(flow.edgewise, mean))
         };
         let density_area = operation.air.density * PI * radius * radius;
-        let thrust = |mean: f64| {
+        let thrust = |mean: S| {
             let field = distributed(mean);
-            let mut thrust = 0.0;
+            let mut thrust = S::zero();
             for i in 0..self.elements.len() {
                 let element = self.element(i, operation);
-                let induced = |place: &Place| field.at(element.radius_ratio(), place.azimuth);
+                let induced = |place: &Place<S>| field.at(element.radius_ratio(), place.azimuth);
                 let per_length = mean_thrust(&element, flow, LossIn::Lift, &scene.places, induced);
                 thrust += per_length * self.elements.width;
             }
             thrust / density_area
         };
-        let scale = tip_speed + flow.edgewise + flow.climb.abs();
+        let scale = (tip_speed + flow.edgewise + flow.climb.abs()).value();
         if scale == 0.0 {
-            return Ok(Field::default());
+            return Ok(Field::none());
         }
         let descent = self.models.descent;
-        let mass_flow = |v: f64| descent.speed(flow.edgewise, flow.climb, v);
+        let mass_flow = |v: S| descent.speed(flow.edgewise, flow.climb, v);
         let mean = uniform::mean_velocity(mass_flow, flow.climb, scale, thrust)
             .map_err(SolveError::Disc)?;
         Ok(distributed(mean))
     }
 
-    fn ground(&self, operation: &Operation) -> Ground {
+    fn ground(&self, operation: &Operation<S>) -> Ground<S> {
         Ground {
             effect: self.models.ground_effect,
             height_ratio: operation.height / self.geometry.radius,
         }
     }
 
-    fn element(&self, i: usize, operation: &Operation) -> Element<'_> {
+    fn element(&self, i: usize, operation: &Operation<S>) -> Element<'_, S> {
         let (elements, air) = (&self.elements, &operation.air);
         let chord = elements.chord[i];
         Element {
@@ -351,7 +354,7 @@ impl Rotor {
             model: &self.models.section,
             unit_flow: Similarity {
                 reynolds: air.density * chord / air.viscosity,
-                mach: 1.0 / air.speed_of_sound,
+                mach: S::one() / air.speed_of_sound,
             },
             density: air.density,
         }

@@ -35,6 +35,7 @@ use geometry::{Elements, Geometry};
 use inflow::{Descent, Inflow, descent::FlowState, ground::GroundEffect, peters_he};
 use nalgebra::Vector3;
 use root::RootError;
+use scalar::Scalar;
 use thiserror::Error;
 use tip_loss::TipLoss;
 
@@ -68,42 +69,42 @@ pub enum Blades {
 /// What the rotor does, and in which air. SI units, rad; vectors in the hub frame (x forward, y
 /// left, z up along the shaft).
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Operation {
+pub struct Operation<S = f64> {
     /// Blade pitch at the reference radius is collective - cyclic_lateral cos(psi) -
     /// cyclic_longitudinal sin(psi), psi from the tail in the turning sense.
-    pub collective: f64,
-    pub cyclic_longitudinal: f64,
-    pub cyclic_lateral: f64,
+    pub collective: S,
+    pub cyclic_longitudinal: S,
+    pub cyclic_lateral: S,
     /// Omega, of the rotor against the hub, rad/s: imposed, or that at the start.
-    pub speed: f64,
+    pub speed: S,
     /// Velocity of the hub through the air, m/s.
-    pub airspeed: Vector3<f64>,
+    pub airspeed: Vector3<S>,
     /// Angular velocity of the hub, rad/s.
-    pub angular_velocity: Vector3<f64>,
+    pub angular_velocity: Vector3<S>,
     /// Acceleration of gravity, m/s2: it pulls at blades that flap.
-    pub gravity: Vector3<f64>,
+    pub gravity: Vector3<S>,
     /// Of the flapping hinges, N.m/rad.
-    pub hinge_spring: f64,
+    pub hinge_spring: S,
     /// Of the hub above the ground, m, >= 0.
-    pub height: f64,
-    pub drive: Drive,
-    pub air: Air,
+    pub height: S,
+    pub drive: Drive<S>,
+    pub air: Air<S>,
 }
 
 /// What turns the rotor.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub enum Drive {
+pub enum Drive<S = f64> {
     /// Whatever keeps its speed.
     #[default]
     Speed,
     /// A torque, N.m; the speed is a state of the rotor. `inertia`: of everything that turns, about the
     /// shaft, kg.m2.
-    Torque { torque: f64, inertia: f64 },
+    Torque { torque: S, inertia: f64 },
 }
 
-impl Operation {
+impl<S: Scalar> Operation<S> {
     /// The same at the speed that the rotor has in a state.
-    pub fn at_speed_of(&self, state: &State) -> Self {
+    pub fn at_speed_of(&self, state: &State<S>) -> Self {
         match self.drive {
             Drive::Speed => *self,
             Drive::Torque { .. } => Self {
@@ -116,57 +117,76 @@ impl Operation {
 
 /// What the rotor answers: at the present azimuth, or as the mean over a turn in the disc. SI units,
 /// vectors in the hub frame.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Performance {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Performance<S = f64> {
     /// Force on the hub, and moment on it about its centre.
-    pub force: Vector3<f64>,
-    pub moment: Vector3<f64>,
+    pub force: Vector3<S>,
+    pub moment: Vector3<S>,
     /// Torque that the rotor absorbs.
-    pub torque: f64,
+    pub torque: S,
     /// Mean over the swept annulus from cutout to tip, positive down.
-    pub induced_velocity: f64,
+    pub induced_velocity: S,
     /// r/R of the outermost stalled element's middle at any azimuth, 0 if none is stalled.
     pub stalled_radius: f64,
     /// Share of the blade span that is stalled.
     pub stalled_fraction: f64,
-    pub tip_path: TipPath,
+    pub tip_path: TipPath<S>,
     pub flow_state: FlowState,
 }
 
 /// What the rotor answers, and how fast its states change, per second.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Response {
-    pub performance: Performance,
-    pub rates: State,
+pub struct Response<S = f64> {
+    pub performance: Performance<S>,
+    pub rates: State<S>,
 }
 
 /// The cone of the blades: beta = coning - longitudinal cos psi - lateral sin psi, psi from the tail, rad.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct TipPath {
-    pub coning: f64,
-    pub longitudinal: f64,
-    pub lateral: f64,
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TipPath<S = f64> {
+    pub coning: S,
+    pub longitudinal: S,
+    pub lateral: S,
 }
 
 /// The loads and the flow at a blade element: of blade 1, or as means over a turn in the disc. SI
 /// units, rad.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Load {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Load<S = f64> {
     /// Thrust per unit of radius times the number of blades, N/m.
-    pub thrust: f64,
+    pub thrust: S,
     /// Torque absorbed per unit of radius times the number of blades, N.
-    pub torque: f64,
-    pub angle_of_attack: f64,
+    pub torque: S,
+    pub angle_of_attack: S,
     /// Induced velocity at the blades, positive down, m/s.
-    pub induced_velocity: f64,
+    pub induced_velocity: S,
     /// Its mean around the annulus, m/s: tip loss is the difference.
-    pub mean_induced_velocity: f64,
+    pub mean_induced_velocity: S,
     /// Speed of the flow that meets the section, m/s.
-    pub speed: f64,
-    pub lift_coefficient: f64,
-    pub drag_coefficient: f64,
-    pub reynolds: f64,
-    pub mach: f64,
+    pub speed: S,
+    pub lift_coefficient: S,
+    pub drag_coefficient: S,
+    pub reynolds: S,
+    pub mach: S,
+}
+
+impl<S: Scalar> Load<S> {
+    /// Before anything is computed.
+    pub fn none() -> Self {
+        let none = S::zero();
+        Self {
+            thrust: none,
+            torque: none,
+            angle_of_attack: none,
+            induced_velocity: none,
+            mean_induced_velocity: none,
+            speed: none,
+            lift_coefficient: none,
+            drag_coefficient: none,
+            reynolds: none,
+            mach: none,
+        }
+    }
 }
 
 /// A disc or a blade element for which no flow was found.
@@ -186,20 +206,21 @@ pub enum SolveError {
     StepTooLong(f64),
 }
 
-/// A rotor, cut into elements and ready to compute; it owns the memory that a computation needs.
+/// A rotor, cut into elements and ready to compute with plain or dual numbers; it owns the memory that a
+/// computation needs.
 #[derive(Debug, Clone)]
-pub struct Rotor {
+pub struct Rotor<S = f64> {
     geometry: Geometry,
     airfoils: Vec<Airfoil>,
     models: Models,
     elements: Elements,
-    lifting_share: Vec<f64>,
+    lifting_share: Vec<S>,
     /// The azimuths over which the disc is averaged.
     around: [Azimuth; AZIMUTHS],
     /// The model of Peters & He, while it is chosen.
     peters_he: Option<peters_he::Wake>,
     /// The last computation, by element.
-    loads: Vec<Load>,
+    loads: Vec<Load<S>>,
 }
 
 impl Rotor {
@@ -210,7 +231,7 @@ impl Rotor {
         let elements = Elements::new(&geometry, count);
         let mut rotor = Self {
             lifting_share: vec![1.0; elements.len()],
-            loads: vec![Load::default(); elements.len()],
+            loads: vec![Load::none(); elements.len()],
             around: disc::around(),
             peters_he: match models.inflow {
                 Inflow::PetersHe { order } => {
@@ -235,25 +256,42 @@ impl Rotor {
         rotor
     }
 
+    /// The same rotor, to compute with numbers of another type. Allocates.
+    pub fn with_numbers<T: Scalar>(&self) -> Rotor<T> {
+        let shares = self.lifting_share.iter();
+        Rotor {
+            geometry: self.geometry.clone(),
+            airfoils: self.airfoils.clone(),
+            models: self.models,
+            elements: self.elements.clone(),
+            lifting_share: shares.map(|share| T::constant(*share)).collect(),
+            around: self.around,
+            peters_he: self.peters_he.clone(),
+            loads: vec![Load::none(); self.elements.len()],
+        }
+    }
+}
+
+impl<S: Scalar> Rotor<S> {
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }
 
     /// Radii of the elements, m, and their loads in the last computation.
-    pub fn element_loads(&self) -> (&[f64], &[Load]) {
+    pub fn element_loads(&self) -> (&[f64], &[Load<S>]) {
         (&self.elements.radius, &self.loads)
     }
 
     /// The last computation at a radius r/R between cutout and tip: linear between the middles of the
     /// elements, and that of the outermost ones beyond them.
-    pub fn load_at(&self, radius_ratio: f64) -> Load {
+    pub fn load_at(&self, radius_ratio: f64) -> Load<S> {
         let last = self.loads.len() - 1;
         let place =
             (radius_ratio * self.geometry.radius - self.elements.radius[0]) / self.elements.width;
         let inner = (place.max(0.0) as usize).min(last);
         let (a, b) = (&self.loads[inner], &self.loads[(inner + 1).min(last)]);
         let weight = (place - inner as f64).clamp(0.0, 1.0);
-        let mix = |quantity: fn(&Load) -> f64| quantity(a) + weight * (quantity(b) - quantity(a));
+        let mix = |quantity: fn(&Load<S>) -> S| quantity(a) + (quantity(b) - quantity(a)) * weight;
         Load {
             thrust: mix(|l| l.thrust),
             torque: mix(|l| l.torque),

@@ -8,6 +8,7 @@ use super::{
         pitt_peters::{Loading, Stream},
     },
     loads::Sums,
+    scalar::Scalar,
     scene::Scene,
 };
 use core::f64::consts::PI;
@@ -16,9 +17,9 @@ use core::f64::consts::PI;
 /// 2.5 for damped.
 const LARGEST_PRODUCT: f64 = 1.0;
 
-impl Rotor {
+impl<S: Scalar> Rotor<S> {
     /// Whether anything but the azimuth changes in time by itself.
-    pub fn has_memory(&self, operation: &Operation) -> bool {
+    pub fn has_memory(&self, operation: &Operation<S>) -> bool {
         operation.drive != Drive::Speed
             || self.models.hinge.freedom.is_some()
             || self.inflow_states() > 0
@@ -34,7 +35,11 @@ impl Rotor {
     }
 
     /// How fast the states change, per second.
-    pub fn rates(&mut self, operation: &Operation, state: &State) -> Result<State, SolveError> {
+    pub fn rates(
+        &mut self,
+        operation: &Operation<S>,
+        state: &State<S>,
+    ) -> Result<State<S>, SolveError> {
         let operation = &operation.at_speed_of(state);
         if !self.has_memory(operation) {
             return Ok(State {
@@ -49,11 +54,11 @@ impl Rotor {
 
     pub(super) fn rates_in(
         &self,
-        operation: &Operation,
-        state: &State,
-        scene: &Scene,
-        sums: &Sums,
-    ) -> State {
+        operation: &Operation<S>,
+        state: &State<S>,
+        scene: &Scene<S>,
+        sums: &Sums<S>,
+    ) -> State<S> {
         let mut rates = State {
             azimuth: operation.speed,
             ..State::default()
@@ -65,8 +70,8 @@ impl Rotor {
                 let density_area = operation.air.density * PI * radius * radius;
                 let loading = Loading {
                     thrust: sums.force.z / density_area,
-                    cosine: sums.moment.y / (radius * density_area),
-                    sine: -sums.moment.x / (radius * density_area),
+                    cosine: sums.moment.y / (density_area * radius),
+                    sine: -sums.moment.x / (density_area * radius),
                 };
                 let field = scene.axes.field_into_wind(&state.field());
                 let rate = stream.rate(&field, &loading);
@@ -75,7 +80,7 @@ impl Rotor {
             (_, Some(wake)) => {
                 let (cos, sin) = (scene.axes.cos, scene.axes.sin);
                 let states = wake.rotated(&state.inflow, cos, sin);
-                let mut in_wind = [0.0; super::state::MOST_INFLOW_STATES];
+                let mut in_wind = [S::zero(); super::state::MOST_INFLOW_STATES];
                 wake.rate(&states, &sums.loading, &stream, &mut in_wind);
                 rates.inflow = wake.rotated(&in_wind, cos, -sin);
             }
@@ -95,6 +100,17 @@ impl Rotor {
         rates
     }
 
+    fn stream(&self, flow: &DiscFlow<S>) -> Stream<S> {
+        Stream {
+            edgewise: flow.edgewise,
+            climb: flow.climb,
+            radius: self.geometry.radius,
+            descent: self.models.descent,
+        }
+    }
+}
+
+impl Rotor {
     /// Number of equal steps that makes a stretch of `duration` s stable.
     pub fn steps(&self, operation: &Operation, state: &State, duration: f64) -> f64 {
         let fastest = self.fastest_rate(operation, state);
@@ -155,14 +171,5 @@ impl Rotor {
             }
         };
         inflow + flapping + turning
-    }
-
-    fn stream(&self, flow: &DiscFlow) -> Stream {
-        Stream {
-            edgewise: flow.edgewise,
-            climb: flow.climb,
-            radius: self.geometry.radius,
-            descent: self.models.descent,
-        }
     }
 }

@@ -1,18 +1,32 @@
 //! The number type of the physics: a plain double or, where derivatives are wanted, a dual number.
 //!
-//! The elementary functions of `f64` come from the `libm` crate: those of the standard library
+//! The elementary functions come from the `libm` crate: those of the standard library
 //! differ in their last bits between platforms, and the same FMU must give the same bits on all.
+//!
+//! A dual number (of the `num-dual` crate) carries the derivative along one direction. Where the physics has a
+//! corner, in a table or in a magnitude, it carries the one-sided derivative towards the side to which the
+//! direction leads, or of the interval that begins there.
 
-use std::ops::{Add, Div, Mul, Neg, Sub};
+use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
+use num_dual::Dual64;
+use num_traits::{One, Zero};
+use std::{
+    iter::Sum,
+    ops::{Add, Div, Mul, Neg, Sub},
+};
 
 /// A real number with the arithmetic and functions that the physics uses. Angles are radians.
 pub trait Scalar:
-    Copy
+    nalgebra::Scalar
+    + Copy
+    + Zero
+    + One
+    + Sum
     + Neg<Output = Self>
-    + Add<Output = Self>
-    + Sub<Output = Self>
-    + Mul<Output = Self>
-    + Div<Output = Self>
+    + ClosedAddAssign
+    + ClosedSubAssign
+    + ClosedMulAssign
+    + ClosedDivAssign
     + Add<f64, Output = Self>
     + Sub<f64, Output = Self>
     + Mul<f64, Output = Self>
@@ -22,32 +36,31 @@ pub trait Scalar:
     fn constant(value: f64) -> Self;
     /// The value without derivatives.
     fn value(self) -> f64;
+    /// Whether the magnitude is at most `most` and does not change.
+    fn is_nothing(self, most: f64) -> bool;
     fn sin(self) -> Self;
     fn cos(self) -> Self;
     fn acos(self) -> Self;
     fn exp(self) -> Self;
     fn ln(self) -> Self;
     fn sqrt(self) -> Self;
-
-    fn abs(self) -> Self {
-        if self.value() < 0.0 { -self } else { self }
-    }
+    /// `self` to a constant power.
+    fn power(self, exponent: f64) -> Self;
+    /// Angle of the point (x, self).
+    fn atan2(self, x: Self) -> Self;
+    /// Distance of the point (self, other) from the origin.
+    fn hypot(self, other: Self) -> Self;
+    fn abs(self) -> Self;
     /// `self` or the constant `floor`, whichever is larger.
-    fn at_least(self, floor: f64) -> Self {
-        if self.value() < floor {
-            Self::constant(floor)
-        } else {
-            self
-        }
-    }
+    fn at_least(self, floor: f64) -> Self;
     /// `self` or the constant `ceiling`, whichever is smaller.
-    fn at_most(self, ceiling: f64) -> Self {
-        if self.value() > ceiling {
-            Self::constant(ceiling)
-        } else {
-            self
-        }
-    }
+    fn at_most(self, ceiling: f64) -> Self;
+    /// Cosine and sine of the direction of the point (x, y); at the origin of that into which it leaves it,
+    /// and none if it stays there.
+    fn direction(x: Self, y: Self) -> Option<(Self, Self)>;
+    /// The root of an equation, which was found at `place`. A dual number gets its derivative by the theorem of the
+    /// implicit function, dx = -(dR/dp) dp/(dR/dx), at the root, not through the search for it.
+    fn at_root(place: f64, residual: impl FnMut(Self) -> Self) -> Self;
 }
 
 impl Scalar for f64 {
@@ -56,6 +69,9 @@ impl Scalar for f64 {
     }
     fn value(self) -> f64 {
         self
+    }
+    fn is_nothing(self, most: f64) -> bool {
+        f64::abs(self) <= most
     }
     fn sin(self) -> Self {
         libm::sin(self)
@@ -75,123 +91,185 @@ impl Scalar for f64 {
     fn sqrt(self) -> Self {
         libm::sqrt(self)
     }
+    fn power(self, exponent: f64) -> Self {
+        libm::pow(self, exponent)
+    }
+    fn atan2(self, x: Self) -> Self {
+        libm::atan2(self, x)
+    }
+    fn hypot(self, other: Self) -> Self {
+        libm::hypot(self, other)
+    }
+    fn abs(self) -> Self {
+        if self < 0.0 { -self } else { self }
+    }
+    fn at_least(self, floor: f64) -> Self {
+        if self < floor { floor } else { self }
+    }
+    fn at_most(self, ceiling: f64) -> Self {
+        if self > ceiling { ceiling } else { self }
+    }
+    fn direction(x: Self, y: Self) -> Option<(Self, Self)> {
+        let distance = libm::hypot(x, y);
+        (distance != 0.0).then(|| (x / distance, y / distance))
+    }
+    fn at_root(place: f64, _residual: impl FnMut(Self) -> Self) -> Self {
+        place
+    }
 }
 
-/// A dual number for the tests: a value and its derivative by one variable.
+/// A function of `x` with the value and slope that it has there; what does not change stays so, whatever the slope.
+fn chain(x: Dual64, value: f64, slope: f64) -> Dual64 {
+    let change = if x.eps == 0.0 { 0.0 } else { slope * x.eps };
+    Dual64::new(value, change)
+}
+
+impl Scalar for Dual64 {
+    fn constant(value: f64) -> Self {
+        Self::from_re(value)
+    }
+    fn value(self) -> f64 {
+        self.re
+    }
+    fn is_nothing(self, most: f64) -> bool {
+        self.re.is_nothing(most) && self.eps == 0.0
+    }
+    fn sin(self) -> Self {
+        chain(self, libm::sin(self.re), libm::cos(self.re))
+    }
+    fn cos(self) -> Self {
+        chain(self, libm::cos(self.re), -libm::sin(self.re))
+    }
+    fn acos(self) -> Self {
+        let slope = -1.0 / libm::sqrt(1.0 - self.re * self.re);
+        chain(self, libm::acos(self.re), slope)
+    }
+    fn exp(self) -> Self {
+        let value = libm::exp(self.re);
+        chain(self, value, value)
+    }
+    fn ln(self) -> Self {
+        chain(self, libm::log(self.re), 1.0 / self.re)
+    }
+    fn sqrt(self) -> Self {
+        let value = libm::sqrt(self.re);
+        chain(self, value, 0.5 / value)
+    }
+    fn power(self, exponent: f64) -> Self {
+        let slope = exponent * libm::pow(self.re, exponent - 1.0);
+        chain(self, libm::pow(self.re, exponent), slope)
+    }
+    fn atan2(self, x: Self) -> Self {
+        let (y, square) = (self, self.re * self.re + x.re * x.re);
+        let turned = x.re * y.eps - y.re * x.eps;
+        let change = if turned == 0.0 { 0.0 } else { turned / square };
+        Self::new(libm::atan2(y.re, x.re), change)
+    }
+    fn hypot(self, other: Self) -> Self {
+        let distance = libm::hypot(self.re, other.re);
+        let change = if distance == 0.0 {
+            libm::hypot(self.eps, other.eps)
+        } else {
+            self.re / distance * self.eps + other.re / distance * other.eps
+        };
+        Self::new(distance, change)
+    }
+    fn abs(self) -> Self {
+        if self.re < 0.0 || (self.re == 0.0 && self.eps < 0.0) {
+            -self
+        } else {
+            self
+        }
+    }
+    fn at_least(self, floor: f64) -> Self {
+        if self.re < floor || (self.re == floor && self.eps < 0.0) {
+            Self::from_re(floor)
+        } else {
+            self
+        }
+    }
+    fn at_most(self, ceiling: f64) -> Self {
+        if self.re > ceiling || (self.re == ceiling && self.eps > 0.0) {
+            Self::from_re(ceiling)
+        } else {
+            self
+        }
+    }
+    fn direction(x: Self, y: Self) -> Option<(Self, Self)> {
+        if x.re != 0.0 || y.re != 0.0 {
+            let distance = x.hypot(y);
+            return Some((x / distance, y / distance));
+        }
+        let direction = f64::direction(x.eps, y.eps);
+        direction.map(|(cos, sin)| (Self::from_re(cos), Self::from_re(sin)))
+    }
+    fn at_root(place: f64, mut residual: impl FnMut(Self) -> Self) -> Self {
+        let here = residual(Self::from_re(place)).eps;
+        if here == 0.0 {
+            return Self::from_re(place);
+        }
+        let slope = residual(Self::new(place, 1.0)).eps - here;
+        Self::new(place, -here / slope)
+    }
+}
+
 #[cfg(test)]
-pub mod dual {
-    use super::Scalar;
-    use std::ops::{Add, Div, Mul, Neg, Sub};
+mod tests {
+    use super::*;
 
-    #[derive(Debug, Clone, Copy)]
-    pub struct Dual {
-        pub value: f64,
-        pub slope: f64,
-    }
-
-    impl Dual {
-        /// The variable itself.
-        pub fn variable(value: f64) -> Self {
-            Self { value, slope: 1.0 }
+    /// Functions of one variable at places without corners, against their differences.
+    #[test]
+    fn derivatives_are_those_of_differences() {
+        fn functions<S: Scalar>(x: S) -> [S; 13] {
+            let two = S::constant(2.0);
+            [
+                x.sin(),
+                x.cos(),
+                (x * 0.3).acos(),
+                x.exp(),
+                x.abs().ln(),
+                x.abs().sqrt(),
+                x.abs().power(1.7),
+                x.atan2(two),
+                two.atan2(x),
+                x.hypot(x * x),
+                (x - 0.5).abs(),
+                x / (x * x + 1.0),
+                S::direction(x, two).unwrap_or((x, x)).0,
+            ]
         }
-
-        fn chain(self, value: f64, slope: f64) -> Self {
-            Self {
-                value,
-                slope: slope * self.slope,
+        for x in [-1.3, 0.2, 1.1, 2.9] {
+            let step = 1e-6;
+            let (above, below) = (functions(x + step), functions(x - step));
+            let exact = functions(Dual64::new(x, 1.0));
+            for (i, dual) in exact.into_iter().enumerate() {
+                let difference = (above[i] - below[i]) / (2.0 * step);
+                assert!((dual.re - functions(x)[i]).abs() < 1e-15, "{i} at {x}");
+                assert!((dual.eps - difference).abs() < 1e-8, "{i} at {x}: {dual}");
             }
         }
     }
 
-    impl Neg for Dual {
-        type Output = Self;
-        fn neg(self) -> Self {
-            self.chain(-self.value, -1.0)
-        }
-    }
-    impl Add for Dual {
-        type Output = Self;
-        fn add(self, o: Self) -> Self {
-            Self {
-                value: self.value + o.value,
-                slope: self.slope + o.slope,
-            }
-        }
-    }
-    impl Sub for Dual {
-        type Output = Self;
-        fn sub(self, o: Self) -> Self {
-            self + -o
-        }
-    }
-    impl Mul for Dual {
-        type Output = Self;
-        fn mul(self, o: Self) -> Self {
-            let slope = self.slope * o.value + self.value * o.slope;
-            Self {
-                value: self.value * o.value,
-                slope,
-            }
-        }
-    }
-    impl Div for Dual {
-        type Output = Self;
-        fn div(self, o: Self) -> Self {
-            self * o.chain(1.0 / o.value, -1.0 / (o.value * o.value))
-        }
-    }
-    impl Add<f64> for Dual {
-        type Output = Self;
-        fn add(self, o: f64) -> Self {
-            self.chain(self.value + o, 1.0)
-        }
-    }
-    impl Sub<f64> for Dual {
-        type Output = Self;
-        fn sub(self, o: f64) -> Self {
-            self.chain(self.value - o, 1.0)
-        }
-    }
-    impl Mul<f64> for Dual {
-        type Output = Self;
-        fn mul(self, o: f64) -> Self {
-            self.chain(self.value * o, o)
-        }
-    }
-    impl Div<f64> for Dual {
-        type Output = Self;
-        fn div(self, o: f64) -> Self {
-            self.chain(self.value / o, 1.0 / o)
-        }
+    #[test]
+    fn corners_have_the_derivative_of_the_side_to_which_the_direction_leads() {
+        let at = |value: f64, change: f64| Dual64::new(value, change);
+        assert_eq!(at(0.0, -2.0).abs().eps, 2.0);
+        assert_eq!(at(0.0, 3.0).hypot(at(0.0, -4.0)).eps, 5.0);
+        assert_eq!(at(1.0, -1.0).at_least(1.0).eps, 0.0);
+        assert_eq!(at(1.0, 1.0).at_least(1.0).eps, 1.0);
+        assert_eq!(at(1.0, 1.0).at_most(1.0).eps, 0.0);
+        let (cos, sin) = Dual64::direction(at(0.0, 0.0), at(0.0, -3.0)).unwrap();
+        assert_eq!((cos.re, sin.re), (0.0, -1.0));
+        assert!(Dual64::direction(at(0.0, 0.0), at(0.0, 0.0)).is_none());
+        assert_eq!(at(0.0, 0.0).sqrt().eps, 0.0, "what stays, stays");
     }
 
-    impl Scalar for Dual {
-        fn constant(value: f64) -> Self {
-            Self { value, slope: 0.0 }
-        }
-        fn value(self) -> f64 {
-            self.value
-        }
-        fn sin(self) -> Self {
-            self.chain(libm::sin(self.value), libm::cos(self.value))
-        }
-        fn cos(self) -> Self {
-            self.chain(libm::cos(self.value), -libm::sin(self.value))
-        }
-        fn acos(self) -> Self {
-            let slope = -1.0 / libm::sqrt(1.0 - self.value * self.value);
-            self.chain(libm::acos(self.value), slope)
-        }
-        fn exp(self) -> Self {
-            let value = libm::exp(self.value);
-            self.chain(value, value)
-        }
-        fn ln(self) -> Self {
-            self.chain(libm::log(self.value), 1.0 / self.value)
-        }
-        fn sqrt(self) -> Self {
-            let value = libm::sqrt(self.value);
-            self.chain(value, 0.5 / value)
-        }
+    /// x^2 = p at p = 4: dx = dp/(2 x).
+    #[test]
+    fn a_root_moves_as_the_implicit_function_does() {
+        let p = Dual64::new(4.0, 3.0);
+        let x = Dual64::at_root(2.0, |x| x * x - p);
+        assert_eq!((x.re, x.eps), (2.0, 0.75));
+        assert_eq!(f64::at_root(2.0, |x| x * x - 4.0), 2.0);
     }
 }

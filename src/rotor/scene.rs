@@ -6,6 +6,7 @@ use super::{
     flapping::Flap,
     geometry::Rotation,
     inflow::Inflow,
+    scalar::Scalar,
 };
 use core::f64::consts::PI;
 use nalgebra::Vector3;
@@ -15,32 +16,33 @@ use nalgebra::Vector3;
 const SYMMETRIC: f64 = 1e-12;
 
 /// The rotor's motion in axes turned into the wind, and where its blades are.
-pub(super) struct Scene {
-    pub axes: WindAxes,
-    pub flow: DiscFlow,
-    pub gravity: Vector3<f64>,
-    pub places: Places,
+pub(super) struct Scene<S = f64> {
+    pub axes: WindAxes<S>,
+    pub flow: DiscFlow<S>,
+    pub gravity: Vector3<S>,
+    pub places: Places<S>,
     /// Whether the places are those of the blades, rather than of a mean over the turn.
     pub is_blades: bool,
 }
 
-impl Rotor {
+impl<S: Scalar> Rotor<S> {
     /// Whether `performance` is that of blades at their azimuths, rather than a mean over a turn.
-    pub fn shows_blades(&self, operation: &Operation, state: &State) -> bool {
+    pub fn shows_blades(&self, operation: &Operation<S>, state: &State<S>) -> bool {
         let operation = &operation.at_speed_of(state);
         self.scene(operation, state).is_blades
     }
 
     /// Whether the states go round with the blades for ever: then no steady state comes in which they rest.
-    pub fn never_rests(&self, operation: &Operation, state: &State) -> bool {
+    pub fn never_rests(&self, operation: &Operation<S>, state: &State<S>) -> bool {
         let operation = &operation.at_speed_of(state);
         let scene = self.scene(operation, state);
-        let turns = operation.speed != 0.0 && scene.is_blades && !scene.flow.is_axisymmetric();
+        let turns =
+            operation.speed.value() != 0.0 && scene.is_blades && !scene.flow.is_axisymmetric();
         turns || operation.drive != Drive::Speed
     }
 
     /// Axes into the wind, the disc's flow in them, and the places of the blades.
-    pub(super) fn scene(&self, operation: &Operation, state: &State) -> Scene {
+    pub(super) fn scene(&self, operation: &Operation<S>, state: &State<S>) -> Scene<S> {
         let mirror = self.mirror();
         let Operation {
             airspeed,
@@ -48,17 +50,17 @@ impl Rotor {
             gravity,
             ..
         } = operation;
-        let axes = WindAxes::new(airspeed.x, mirror * airspeed.y);
+        let axes = WindAxes::new(airspeed.x, airspeed.y * mirror);
         let (roll_rate, pitch_rate) =
-            axes.into_wind(mirror * angular_velocity.x, angular_velocity.y);
-        let (gravity_x, gravity_y) = axes.into_wind(gravity.x, mirror * gravity.y);
+            axes.into_wind(angular_velocity.x * mirror, angular_velocity.y);
+        let (gravity_x, gravity_y) = axes.into_wind(gravity.x, gravity.y * mirror);
         // Cyclic pitch is -cos(psi) and -sin(psi) times these: it turns like (x, y) as well.
         let (cyclic_cos, cyclic_sin) =
             axes.into_wind(operation.cyclic_lateral, operation.cyclic_longitudinal);
         let flow = DiscFlow {
-            rotation: operation.speed + mirror * angular_velocity.z,
+            rotation: operation.speed + angular_velocity.z * mirror,
             speed: operation.speed,
-            edgewise: libm::hypot(airspeed.x, airspeed.y),
+            edgewise: airspeed.x.hypot(airspeed.y),
             climb: airspeed.z,
             roll_rate,
             pitch_rate,
@@ -68,7 +70,7 @@ impl Rotor {
         };
         // What is left of an asymmetry that dies away is none.
         let speeds = flow.rotation.abs() * self.geometry.radius + flow.edgewise + flow.climb.abs();
-        let none = SYMMETRIC * speeds;
+        let none = SYMMETRIC * speeds.value();
         let is_inflow_symmetric = match &self.peters_he {
             Some(wake) => wake.is_axisymmetric(&state.inflow, none),
             None => state.field().is_axisymmetric(none),
@@ -95,17 +97,17 @@ impl Rotor {
     }
 
     /// The blades where they are.
-    fn blades(&self, axes: &WindAxes, state: &State) -> Places {
+    fn blades(&self, axes: &WindAxes<S>, state: &State<S>) -> Places<S> {
         let count = self.geometry.blades as usize;
         let step = 2.0 * PI / count as f64;
         Places::new((0..count).map(|k| {
             let psi = state.azimuth + step * k as f64;
-            let (cos, sin) = axes.into_wind(libm::cos(psi), libm::sin(psi));
+            let (cos, sin) = axes.into_wind(psi.cos(), psi.sin());
             let azimuth = Azimuth { sin, cos };
             match (&self.models.hinge.freedom, state.flaps.get(k)) {
                 (Some(freedom), Some(flap)) => {
                     let above = flap.angle - self.models.hinge.precone;
-                    Place::new(azimuth, *flap, -freedom.pitch_flap * above)
+                    Place::new(azimuth, *flap, above * -freedom.pitch_flap)
                 }
                 _ => self.rigid(azimuth),
             }
@@ -113,19 +115,18 @@ impl Rotor {
     }
 
     /// The azimuths to average over: one without a direction where all are alike.
-    fn turn(&self, is_symmetric: bool) -> Places {
+    fn turn(&self, is_symmetric: bool) -> Places<S> {
         if is_symmetric {
-            return Places::new([self.rigid(Azimuth::default())].into_iter());
+            return Places::new([self.rigid(Azimuth::nowhere())].into_iter());
         }
-        Places::new(self.around.iter().map(|azimuth| self.rigid(*azimuth)))
+        Places::new(self.around.iter().map(|azimuth| {
+            let (sin, cos) = (S::constant(azimuth.sin), S::constant(azimuth.cos));
+            self.rigid(Azimuth { sin, cos })
+        }))
     }
 
-    fn rigid(&self, azimuth: Azimuth) -> Place {
-        let flap = Flap {
-            angle: self.models.hinge.precone,
-            rate: 0.0,
-        };
-        Place::new(azimuth, flap, 0.0)
+    fn rigid(&self, azimuth: Azimuth<S>) -> Place<S> {
+        Place::new(azimuth, Flap::rigid(self.models.hinge.precone), S::zero())
     }
 
     /// -1 for a clockwise rotor, which is computed as its mirror image.

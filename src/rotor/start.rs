@@ -40,10 +40,7 @@ impl Rotor {
         start: Start,
         azimuth_step: f64,
     ) -> Result<State, SolveError> {
-        let precone = Flap {
-            angle: self.models.hinge.precone,
-            rate: 0.0,
-        };
+        let precone = Flap::rigid(self.models.hinge.precone);
         let mut state = State::default();
         if self.models.hinge.freedom.is_some() {
             let count = self.geometry.blades as usize;

@@ -3,6 +3,7 @@
 use super::{
     flapping::Flap,
     inflow::{Field, peters_he},
+    scalar::Scalar,
 };
 
 /// Most blades that can flap.
@@ -12,16 +13,28 @@ pub const MOST_FLAPPING_BLADES: usize = 8;
 pub const MOST_INFLOW_STATES: usize = peters_he::MOST_STATES;
 
 /// The states of a rotor, or how fast they change. What the models do not use stays 0.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct State {
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct State<S = f64> {
     /// Of blade 1 from the tail in the turning sense, rad; it counts on over the turns. Blade k is k - 1
     /// steps of 2 pi/N ahead.
-    pub azimuth: f64,
+    pub azimuth: S,
     /// Of the rotor against the hub while a torque drives it, rad/s.
-    pub speed: f64,
+    pub speed: S,
     /// m/s, in the axes of the hub (mirrored for a clockwise rotor).
-    pub inflow: [f64; MOST_INFLOW_STATES],
-    pub flaps: [Flap; MOST_FLAPPING_BLADES],
+    pub inflow: [S; MOST_INFLOW_STATES],
+    pub flaps: [Flap<S>; MOST_FLAPPING_BLADES],
+}
+
+impl<S: Scalar> Default for State<S> {
+    /// All zero.
+    fn default() -> Self {
+        Self {
+            azimuth: S::zero(),
+            speed: S::zero(),
+            inflow: [S::zero(); MOST_INFLOW_STATES],
+            flaps: [Flap::rigid(0.0); MOST_FLAPPING_BLADES],
+        }
+    }
 }
 
 impl State {
@@ -40,16 +53,6 @@ impl State {
         sum
     }
 
-    /// The first three states of the inflow as a linear distribution.
-    pub fn field(&self) -> Field {
-        let [mean, cosine, sine, ..] = self.inflow;
-        Field { mean, cosine, sine }
-    }
-
-    pub fn set_field(&mut self, field: &Field) {
-        self.inflow[..3].copy_from_slice(&field.to_array());
-    }
-
     /// Largest difference to another state in anything but the azimuth: m/s, rad or rad/s.
     pub fn largest_change(&self, other: &Self) -> f64 {
         let inflow = self.inflow.iter().zip(&other.inflow);
@@ -59,5 +62,17 @@ impl State {
             .map(|(a, b)| (a - b).abs())
             .chain(angles)
             .fold((self.speed - other.speed).abs(), f64::max)
+    }
+}
+
+impl<S: Scalar> State<S> {
+    /// The first three states of the inflow as a linear distribution.
+    pub fn field(&self) -> Field<S> {
+        let [mean, cosine, sine, ..] = self.inflow;
+        Field { mean, cosine, sine }
+    }
+
+    pub fn set_field(&mut self, field: &Field<S>) {
+        self.inflow[..3].copy_from_slice(&field.to_array());
     }
 }

@@ -71,16 +71,16 @@ impl TipLoss {
     }
 
     /// r/R at which the lift ends, where it depends on the thrust coefficient (its magnitude).
-    pub fn end_at_thrust(self, blades: f64, thrust_coefficient: f64) -> Option<f64> {
-        (self == Self::PrandtlThrust)
-            .then(|| (1.0 - libm::sqrt(thrust_coefficient) / blades).max(0.0))
+    pub fn end_at_thrust<S: Scalar>(self, blades: f64, thrust_coefficient: S) -> Option<S> {
+        let end = -(thrust_coefficient.sqrt() / blades) + 1.0;
+        (self == Self::PrandtlThrust).then(|| end.at_least(0.0))
     }
 }
 
 /// Share of a blade element's width that carries lift, which ends at `end`: the element across it counts in
 /// part, so that the thrust does not jump with the number of elements. Any unit of length.
-pub fn lifting_share(inner: f64, outer: f64, end: f64) -> f64 {
-    ((end - inner) / (outer - inner)).clamp(0.0, 1.0)
+pub fn lifting_share<S: Scalar>(inner: f64, outer: f64, end: S) -> S {
+    ((end - inner) / (outer - inner)).at_least(0.0).at_most(1.0)
 }
 
 #[cfg(test)]

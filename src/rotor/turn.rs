@@ -6,17 +6,18 @@ use super::{
     disc::{AZIMUTHS, Azimuth, DiscFlow, Encounter, Place},
     element::{Element, LossIn, SectionLoad},
     inflow::Induced,
+    scalar::Scalar,
 };
 use nalgebra::Vector3;
 
 /// The loads of one blade's section in an induced velocity, and what it meets.
-fn section_load(
-    element: &Element,
-    flow: &DiscFlow,
+fn section_load<S: Scalar>(
+    element: &Element<S>,
+    flow: &DiscFlow<S>,
     loss: LossIn,
-    place: &Place,
-    induced: Induced,
-) -> (Encounter, SectionLoad) {
+    place: &Place<S>,
+    induced: Induced<S>,
+) -> (Encounter<S>, SectionLoad<S>) {
     let meets = flow.meets(element.radius, place);
     let load = element.load(
         element.pitch + meets.pitch,
@@ -28,47 +29,47 @@ fn section_load(
 }
 
 /// Thrust of all blades' sections per unit of radius, N/m, as a mean over the places.
-pub fn mean_thrust(
-    element: &Element,
-    flow: &DiscFlow,
+pub fn mean_thrust<S: Scalar>(
+    element: &Element<S>,
+    flow: &DiscFlow<S>,
     loss: LossIn,
-    places: &[Place],
-    induced: impl Fn(&Place) -> Induced,
-) -> f64 {
-    let normal = |place: &Place| {
+    places: &[Place<S>],
+    induced: impl Fn(&Place<S>) -> Induced<S>,
+) -> S {
+    let normal = |place: &Place<S>| {
         let (meets, load) = section_load(element, flow, loss, place, induced(place));
         load.normal * meets.flap_cos
     };
-    places.iter().map(normal).sum::<f64>() / places.len() as f64 * element.blades
+    places.iter().map(normal).sum::<S>() / places.len() as f64 * element.blades
 }
 
 /// One element on its way around the azimuth: the loads of all blades per unit of radius, as means
 /// over the places, in the axes of the disc's flow.
 #[derive(Debug)]
-pub struct Turn<'a> {
-    element: &'a Element<'a>,
-    flow: &'a DiscFlow,
-    places: &'a [Place],
+pub struct Turn<'a, S = f64> {
+    element: &'a Element<'a, S>,
+    flow: &'a DiscFlow<S>,
+    places: &'a [Place<S>],
     /// Which places `load` shows: all, or the first, that of blade 1.
     shown: usize,
     /// N/m.
-    pub force: Vector3<f64>,
+    pub force: Vector3<S>,
     /// About the hub's centre, N.
-    pub moment: Vector3<f64>,
+    pub moment: Vector3<S>,
     /// Share of the turn in which the element is stalled.
     pub stalled: f64,
     /// One blade's thrust, N/m, and moment about its hinge, N, at each place.
-    pub thrust_at: [f64; AZIMUTHS],
-    pub hinge_moment_at: [f64; AZIMUTHS],
-    load: Load,
+    pub thrust_at: [S; AZIMUTHS],
+    pub hinge_moment_at: [S; AZIMUTHS],
+    load: Load<S>,
 }
 
-impl<'a> Turn<'a> {
+impl<'a, S: Scalar> Turn<'a, S> {
     /// `is_blades`: whether the places are those of the blades, of which the first is shown.
     pub fn new(
-        element: &'a Element<'a>,
-        flow: &'a DiscFlow,
-        places: &'a [Place],
+        element: &'a Element<'a, S>,
+        flow: &'a DiscFlow<S>,
+        places: &'a [Place<S>],
         is_blades: bool,
     ) -> Self {
         Self {
@@ -79,9 +80,9 @@ impl<'a> Turn<'a> {
             force: Vector3::zeros(),
             moment: Vector3::zeros(),
             stalled: 0.0,
-            thrust_at: [0.0; AZIMUTHS],
-            hinge_moment_at: [0.0; AZIMUTHS],
-            load: Load::default(),
+            thrust_at: [S::zero(); AZIMUTHS],
+            hinge_moment_at: [S::zero(); AZIMUTHS],
+            load: Load::none(),
         }
     }
 
@@ -89,7 +90,7 @@ impl<'a> Turn<'a> {
     pub fn fly<E>(
         &mut self,
         loss: LossIn,
-        induced: impl Fn(usize, &Place) -> Result<Induced, E>,
+        induced: impl Fn(usize, &Place<S>) -> Result<Induced<S>, E>,
     ) -> Result<(), E> {
         for (i, place) in self.places.iter().enumerate() {
             let induced = induced(i, place)?;
@@ -100,7 +101,7 @@ impl<'a> Turn<'a> {
     }
 
     /// Takes the same load and axial induced velocity (m/s) at all azimuths.
-    pub fn take(&mut self, load: &SectionLoad, induced: f64) {
+    pub fn take(&mut self, load: &SectionLoad<S>, induced: S) {
         for (i, place) in self.places.iter().enumerate() {
             let meets = self.flow.meets(self.element.radius, place);
             self.add(i, &meets, load, induced, place.azimuth);
@@ -112,15 +113,15 @@ impl<'a> Turn<'a> {
     fn add(
         &mut self,
         place: usize,
-        meets: &Encounter,
-        load: &SectionLoad,
-        induced: f64,
-        azimuth: Azimuth,
+        meets: &Encounter<S>,
+        load: &SectionLoad<S>,
+        induced: S,
+        azimuth: Azimuth<S>,
     ) {
         let Azimuth { sin, cos } = azimuth;
         let share = 1.0 / self.places.len() as f64;
         let blades = share * self.element.blades;
-        let (normal, tangential) = (blades * load.normal, blades * load.tangential);
+        let (normal, tangential) = (load.normal * blades, load.tangential * blades);
         let inwards = normal * meets.flap_sin;
         self.force += Vector3::new(
             inwards * cos - tangential * sin,
@@ -144,21 +145,21 @@ impl<'a> Turn<'a> {
         }
     }
 
-    fn show(&mut self, meets: &Encounter, load: &SectionLoad, induced: f64) {
+    fn show(&mut self, meets: &Encounter<S>, load: &SectionLoad<S>, induced: S) {
         let share = 1.0 / self.shown as f64;
         let all = share * self.element.blades;
         let shown = &mut self.load;
-        shown.thrust += all * load.normal * meets.flap_cos;
-        shown.torque += all * load.tangential * meets.out;
-        shown.angle_of_attack += share * load.angle_of_attack;
-        shown.speed += share * load.speed;
-        shown.lift_coefficient += share * load.lift_coefficient;
-        shown.drag_coefficient += share * load.drag_coefficient;
-        shown.induced_velocity += share * induced;
+        shown.thrust += load.normal * all * meets.flap_cos;
+        shown.torque += load.tangential * all * meets.out;
+        shown.angle_of_attack += load.angle_of_attack * share;
+        shown.speed += load.speed * share;
+        shown.lift_coefficient += load.lift_coefficient * share;
+        shown.drag_coefficient += load.drag_coefficient * share;
+        shown.induced_velocity += induced * share;
     }
 
     /// The means of the shown places; `mean_induced`: of the whole annulus, m/s.
-    pub fn load(&self, mean_induced: f64) -> Load {
+    pub fn load(&self, mean_induced: S) -> Load<S> {
         let flow = self.element.similarity(self.load.speed);
         Load {
             mean_induced_velocity: mean_induced,

@@ -180,13 +180,14 @@ impl Laws {
     }
 
     /// Slope of the line through the origin, 1/rad.
-    pub fn slope(&self, line: Line, flow: Similarity<f64>) -> f64 {
-        self.layers.mixed(flow, |i| line.slope(&self.law[i]))
+    pub fn slope<S: Scalar>(&self, line: Line, flow: Similarity<S>) -> S {
+        self.layers
+            .mixed(flow, |i| S::constant(line.slope(&self.law[i])))
     }
 
     /// rad, > 0.
-    pub fn stall(&self, flow: Similarity<f64>) -> f64 {
-        self.layers.mixed(flow, |i| self.law[i].stall)
+    pub fn stall<S: Scalar>(&self, flow: Similarity<S>) -> S {
+        self.layers.mixed(flow, |i| S::constant(self.law[i].stall))
     }
 }
 

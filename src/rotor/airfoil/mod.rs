@@ -190,17 +190,19 @@ impl Airfoil {
         }
         let ratio = S::constant(nearest) / reynolds;
         let factor = (ratio.ln() * model.drag_reynolds_exponent).exp();
-        let plain = Similarity {
-            reynolds: flow.reynolds.value(),
-            mach: flow.mach.value(),
-        };
-        let (negative, positive) = self.stall_angles(plain);
+        let (negative, positive) = self.stall_angles(flow);
         let stall = if wrapped(alpha).value() < 0.0 {
             negative
         } else {
             positive
         };
-        drag + drag.at_most(self.table_drag(stall, plain)) * (factor - 1.0)
+        let at_stall = self.table_drag(stall, flow);
+        let scaled = if drag.value() > at_stall.value() {
+            at_stall
+        } else {
+            drag
+        };
+        drag + scaled * (factor - 1.0)
     }
 
     /// As the file has it.
@@ -222,24 +224,31 @@ impl Airfoil {
     /// Slope of one line for the lift, 1/rad, and the angle of zero lift on that line, rad. Of a table,
     /// the line through the lift at -3 and +3 deg of angle of attack: thesis section 3.5.1, line A. Of
     /// laws, line A, or with `Lift::ThesisSlope` line A or B by the pitch of the element (rad).
-    pub fn lift_line(&self, model: &SectionModel, pitch: f64, flow: Similarity<f64>) -> (f64, f64) {
+    pub fn lift_line<S: Scalar>(
+        &self,
+        model: &SectionModel,
+        pitch: f64,
+        flow: Similarity<S>,
+    ) -> (S, S) {
+        let none = S::zero();
         let lift = match (&self.data, model.lift) {
-            (_, Lift::TwoPi) => return (2.0 * PI, 0.0),
-            (Data::Laws(laws), _) => return (laws.slope(model.line(pitch), flow), 0.0),
+            (_, Lift::TwoPi) => return (S::constant(2.0 * PI), none),
+            (Data::Laws(laws), _) => return (laws.slope(model.line(pitch), flow), none),
             (Data::Tables { lift, .. }, _) => lift,
         };
         let edge = 3.0_f64.to_radians();
-        let (low, high) = (lift.value(-edge, flow), lift.value(edge, flow));
+        let at = |alpha: f64| lift.value(S::constant(alpha), flow);
+        let (low, high) = (at(-edge), at(edge));
         let slope = (high - low) / (2.0 * edge);
-        if slope == 0.0 {
-            return (0.0, 0.0);
+        if slope.value() == 0.0 {
+            return (none, none);
         }
-        (slope, -0.5 * (high + low) / slope)
+        (slope, (high + low) * -0.5 / slope)
     }
 
     /// Angles of attack (negative, positive; rad) at which the lift reaches its first peak; -pi
     /// and pi for a section without lift, which cannot stall.
-    pub fn stall_angles(&self, flow: Similarity<f64>) -> (f64, f64) {
+    pub fn stall_angles<S: Scalar>(&self, flow: Similarity<S>) -> (S, S) {
         match &self.data {
             Data::Tables { lift, .. } => lift.stall_angles(flow),
             Data::Laws(laws) => {

@@ -131,11 +131,12 @@ impl Table {
         self.layers.mixed(flow, |i| self.curve[i].value(alpha))
     }
 
-    pub fn stall_angles(&self, flow: Similarity<f64>) -> (f64, f64) {
-        (
-            self.layers.mixed(flow, |i| self.curve[i].stall.0),
-            self.layers.mixed(flow, |i| self.curve[i].stall.1),
-        )
+    pub fn stall_angles<S: Scalar>(&self, flow: Similarity<S>) -> (S, S) {
+        let mixed = |side: fn((f64, f64)) -> f64| {
+            self.layers
+                .mixed(flow, |i| S::constant(side(self.curve[i].stall)))
+        };
+        (mixed(|stall| stall.0), mixed(|stall| stall.1))
     }
 }
 

@@ -67,23 +67,40 @@ use core::f64::consts::FRAC_PI_2;
 /// To which the inflow angle is found, rad.
 const TOLERANCE: f64 = 1e-14;
 
+/// Distance from the far end of the bracket, rad, within which the mean flow counts as brought to rest.
+const FAR_END: f64 = 1e-12;
+
 /// The mean of the undisturbed flow around the annulus: speed U and angle phi0.
 #[derive(Clone, Copy)]
-struct Undisturbed {
-    speed: f64,
-    angle: f64,
+struct Undisturbed<S> {
+    speed: S,
+    angle: S,
 }
 
 /// What the annulus answers: the induced velocity at the blades, and the mean of its axial part
 /// around the annulus, m/s.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Answer {
-    pub induced: Induced,
-    pub mean_axial: f64,
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Answer<S = f64> {
+    pub induced: Induced<S>,
+    pub mean_axial: S,
+}
+
+impl<S: Scalar> Answer<S> {
+    /// Of air that nothing moves.
+    pub fn none() -> Self {
+        Self {
+            induced: Induced::axial(S::zero()),
+            mean_axial: S::zero(),
+        }
+    }
 }
 
 /// The residual R(phi) where all azimuths are alike and momentum theory holds, dimensionless.
-fn axial_residual<S: Scalar>(element: &Element, undisturbed: Undisturbed, inflow_angle: S) -> S {
+fn axial_residual<S: Scalar>(
+    element: &Element<S>,
+    undisturbed: Undisturbed<S>,
+    inflow_angle: S,
+) -> S {
     let sin_inflow = inflow_angle.sin();
     let induced_angle = inflow_angle - undisturbed.angle;
     let across = induced_angle.cos();
@@ -93,19 +110,19 @@ fn axial_residual<S: Scalar>(element: &Element, undisturbed: Undisturbed, inflow
 }
 
 /// The residual R(phi) of the mean over places, dimensionless.
-fn mean_residual(
-    element: &Element,
-    flow: &DiscFlow,
-    places: &[Place],
-    medium: Medium,
-    undisturbed: Undisturbed,
-    inflow_angle: f64,
-) -> f64 {
+fn mean_residual<S: Scalar>(
+    element: &Element<S>,
+    flow: &DiscFlow<S>,
+    places: &[Place<S>],
+    medium: Medium<S>,
+    undisturbed: Undisturbed<S>,
+    inflow_angle: S,
+) -> S {
     let far = induced(undisturbed, inflow_angle);
     let induced = medium.at_the_blades(flow, far);
-    let (sin_inflow, cos_inflow) = (Scalar::sin(inflow_angle), Scalar::cos(inflow_angle));
+    let (sin_inflow, cos_inflow) = (inflow_angle.sin(), inflow_angle.cos());
     let speed = undisturbed.speed;
-    let mut lift = 0.0;
+    let mut sum = S::zero();
     for place in places {
         let meets = flow.meets(element.radius, place);
         // In units of U, whose square may be no number.
@@ -114,54 +131,58 @@ fn mean_residual(
             (meets.through + meets.flap_cos * induced.axial) / speed,
         );
         let square = in_plane * in_plane + through * through;
-        let local_speed = libm::sqrt(square);
-        let alpha = element.pitch + meets.pitch - libm::atan2(through, in_plane);
+        let local_speed = square.sqrt();
+        let alpha = element.pitch + meets.pitch - through.atan2(in_plane);
         // W_psi^2 cos(phi_psi - phi) = W_psi (W_psi cos phi_psi cos phi + W_psi sin phi_psi sin phi),
         // of which the first stands on the flapping blade.
         let axial = meets.flap_cos * in_plane * cos_inflow;
         let projected = local_speed * (axial + through * sin_inflow);
-        lift += element.lift_coefficient(alpha, local_speed * speed) * projected;
+        sum += element.lift_coefficient(alpha, local_speed * speed) * projected;
     }
-    lift /= places.len() as f64;
+    let lift = sum / places.len() as f64;
     let resultant = medium.descent.speed(flow.edgewise, flow.climb, far.axial) / speed;
-    let induced_part = Scalar::sin(inflow_angle - undisturbed.angle);
+    let induced_part = (inflow_angle - undisturbed.angle).sin();
     let factor = element.tip_loss_factor(medium.wake_sine(flow, undisturbed, inflow_angle));
-    4.0 * factor * resultant * induced_part - element.solidity() * lift
+    factor * 4.0 * resultant * induced_part - lift * element.solidity()
 }
 
 /// The velocity induced at an inflow angle, without taking a difference of large numbers.
-fn induced(undisturbed: Undisturbed, inflow_angle: f64) -> Induced {
-    let magnitude = undisturbed.speed * Scalar::sin(inflow_angle - undisturbed.angle);
+fn induced<S: Scalar>(undisturbed: Undisturbed<S>, inflow_angle: S) -> Induced<S> {
+    let magnitude = undisturbed.speed * (inflow_angle - undisturbed.angle).sin();
     Induced {
-        axial: magnitude * Scalar::cos(inflow_angle),
-        swirl: magnitude * Scalar::sin(inflow_angle),
+        axial: magnitude * inflow_angle.cos(),
+        swirl: magnitude * inflow_angle.sin(),
     }
 }
 
 /// What the air and the ground around the rotor do to momentum theory.
 #[derive(Clone, Copy)]
-struct Medium {
+struct Medium<S> {
     descent: Descent,
-    ground: Ground,
+    ground: Ground<S>,
 }
 
-impl Medium {
+impl<S: Scalar> Medium<S> {
     /// Sine of the angle at which the wake leaves the disc, for Prandtl's F: |sin phi| in momentum theory. In
     /// descent the air that takes up momentum is V', not |V_c + v|, which goes through 0 there: F would go
     /// through 1 in a spike at phi = 0, and R would fold.
-    fn wake_sine(&self, flow: &DiscFlow, undisturbed: Undisturbed, inflow_angle: f64) -> f64 {
-        let sin = Scalar::sin(inflow_angle);
+    fn wake_sine(&self, flow: &DiscFlow<S>, undisturbed: Undisturbed<S>, inflow_angle: S) -> S {
+        let sin = inflow_angle.sin();
         let axial = induced(undisturbed, inflow_angle).axial;
-        if self.descent == Descent::Momentum || flow.climb * axial >= 0.0 {
+        if self.descent == Descent::Momentum || (flow.climb * axial).value() >= 0.0 {
             return sin;
         }
-        let speed = undisturbed.speed * Scalar::cos(inflow_angle - undisturbed.angle).abs();
-        let leaves = self.descent.speed(0.0, flow.climb, axial);
-        if leaves < speed { leaves / speed } else { 1.0 }
+        let speed = undisturbed.speed * (inflow_angle - undisturbed.angle).cos().abs();
+        let leaves = self.descent.speed(S::zero(), flow.climb, axial);
+        if leaves.value() < speed.value() {
+            leaves / speed
+        } else {
+            S::one()
+        }
     }
 
     /// What is left near the ground of what would be induced far from it.
-    fn at_the_blades(&self, flow: &DiscFlow, far: Induced) -> Induced {
+    fn at_the_blades(&self, flow: &DiscFlow<S>, far: Induced<S>) -> Induced<S> {
         let left = self.ground.factor(flow.edgewise, far.axial);
         Induced {
             axial: left * far.axial,
@@ -173,44 +194,37 @@ impl Medium {
 /// What an element's annulus induces in a flow, averaged over `places`.
 ///
 /// Fails only if the airfoil's or the flow's numbers are not finite, or so large that they overflow.
-pub fn solve(
-    element: &Element,
-    flow: &DiscFlow,
-    places: &[Place],
+pub fn solve<S: Scalar>(
+    element: &Element<S>,
+    flow: &DiscFlow<S>,
+    places: &[Place<S>],
     descent: Descent,
-    ground: Ground,
-) -> Result<Answer, RootError> {
+    ground: Ground<S>,
+) -> Result<Answer<S>, RootError> {
     let rotation = flow.rotation * element.radius;
     let undisturbed = Undisturbed {
-        speed: libm::hypot(rotation, flow.climb),
-        angle: libm::atan2(flow.climb, rotation),
+        speed: rotation.hypot(flow.climb),
+        angle: flow.climb.atan2(rotation),
     };
-    if undisturbed.speed == 0.0 {
-        return Ok(Answer::default());
+    if undisturbed.speed.value() == 0.0 {
+        return Ok(Answer::none());
     }
     let medium = Medium { descent, ground };
-    let equation = |phi: f64| mean_residual(element, flow, places, medium, undisturbed, phi);
+    let equation = |phi: S| mean_residual(element, flow, places, medium, undisturbed, phi);
     let inflow_angle = if is_one_for_all(flow, places) {
         // At phi0 nothing is induced, and R is the lift alone.
         let lift = element.lift_coefficient(element.pitch - undisturbed.angle, undisturbed.speed);
-        let start = End {
-            at: undisturbed.angle,
-            residual: -element.solidity() * lift,
-        };
-        let is_momentum = descent == Descent::Momentum || lift * flow.climb >= 0.0;
+        let start = lift * -element.solidity();
+        let is_momentum = descent == Descent::Momentum || (lift * flow.climb).value() >= 0.0;
         if is_momentum && ground.is_far() {
-            root(start, element.pitch, |phi| {
-                axial_residual(element, undisturbed, phi)
-            })?
+            let equation = |phi: S| axial_residual(element, undisturbed, phi);
+            inflow_angle(undisturbed.angle, start, element.pitch, equation)?
         } else {
-            root(start, element.pitch, equation)?
+            inflow_angle(undisturbed.angle, start, element.pitch, equation)?
         }
     } else {
-        let start = End {
-            at: undisturbed.angle,
-            residual: equation(undisturbed.angle),
-        };
-        root(start, element.pitch, equation)?
+        let start = equation(undisturbed.angle);
+        inflow_angle(undisturbed.angle, start, element.pitch, equation)?
     };
     let induced = medium.at_the_blades(flow, induced(undisturbed, inflow_angle));
     let factor = element.tip_loss_factor(medium.wake_sine(flow, undisturbed, inflow_angle));
@@ -221,8 +235,30 @@ pub fn solve(
 }
 
 /// Whether a single place without flapping stands for all.
-fn is_one_for_all(flow: &DiscFlow, places: &[Place]) -> bool {
-    matches!(places, [place] if place.flap_sin == 0.0) && flow.is_axisymmetric()
+fn is_one_for_all<S: Scalar>(flow: &DiscFlow<S>, places: &[Place<S>]) -> bool {
+    matches!(places, [place] if place.flap_sin.is_nothing(0.0)) && flow.is_axisymmetric()
+}
+
+/// The inflow angle, rad, with the residual `start` at phi0 = `undisturbed`; `pitch` of the element.
+fn inflow_angle<S: Scalar>(
+    undisturbed: S,
+    start: S,
+    pitch: S,
+    equation: impl Fn(S) -> S,
+) -> Result<S, RootError> {
+    let first = End {
+        at: undisturbed.value(),
+        residual: start.value(),
+    };
+    let found = root(first, pitch.value(), |phi| {
+        equation(S::constant(phi)).value()
+    })?;
+    // Nothing induced, or the mean flow brought to rest: the angle keeps its distance to phi0.
+    let distance = found - undisturbed.value();
+    if start.is_nothing(0.0) || f64::abs(distance) > FRAC_PI_2 - FAR_END {
+        return Ok(S::at_root(found, |phi| phi - undisturbed - distance));
+    }
+    Ok(S::at_root(found, equation))
 }
 
 /// The root that belongs to the residual at phi0.
@@ -270,10 +306,13 @@ mod tests {
     use crate::rotor::{
         airfoil::{Airfoil, Lift, SectionModel, Similarity},
         compressibility::Compressibility,
+        disc::Azimuth,
         element::Section,
-        scalar::dual::Dual,
+        flapping::Flap,
+        inflow::ground::GroundEffect,
         tip_loss::TipLoss,
     };
+    use num_dual::Dual64;
     use std::path::Path;
 
     const MODEL: SectionModel = SectionModel {
@@ -288,7 +327,7 @@ mod tests {
         Airfoil::read(&folder.join("naca0015.polar")).unwrap()
     }
 
-    fn element(airfoil: &Airfoil, chord: f64, pitch: f64) -> Element<'_> {
+    fn element<S: Scalar>(airfoil: &Airfoil, chord: f64, pitch: S) -> Element<'_, S> {
         Element {
             blades: 3.0,
             radius: 0.8,
@@ -296,7 +335,7 @@ mod tests {
             tip_radius: 1.0,
             chord,
             pitch,
-            lifting_share: 1.0,
+            lifting_share: S::one(),
             tip_loss: TipLoss::Prandtl,
             section: Section {
                 inner: airfoil,
@@ -305,30 +344,69 @@ mod tests {
             },
             model: &MODEL,
             unit_flow: Similarity {
-                reynolds: 7e3,
-                mach: 1.0 / 340.0,
+                reynolds: S::constant(7e3),
+                mach: S::constant(1.0 / 340.0),
             },
-            density: 1.2,
+            density: S::constant(1.2),
         }
     }
 
-    /// The same text gives the residual and, with dual numbers, its derivative.
+    /// The induced velocity moves with pitch and climb as its differences do, in hover and climb, at no lift and where
+    /// the table has no corner.
     #[test]
-    fn the_derivative_of_the_residual_is_that_of_its_differences() {
+    fn the_derivatives_of_the_solution_are_those_of_its_differences() {
+        fn induced<S: Scalar>(airfoil: &Airfoil, pitch: S, climb: S, edgewise: f64) -> S {
+            let flow = DiscFlow {
+                rotation: S::constant(100.0),
+                speed: S::constant(100.0),
+                edgewise: S::constant(edgewise),
+                climb,
+                roll_rate: S::zero(),
+                pitch_rate: S::zero(),
+                cyclic_cos: S::zero(),
+                cyclic_sin: S::zero(),
+                hinge: 0.0,
+            };
+            let azimuth = Azimuth {
+                sin: S::constant(0.6),
+                cos: S::constant(0.8),
+            };
+            let place = Place::new(azimuth, Flap::rigid(0.0), S::zero());
+            let element = element(airfoil, 0.1, pitch);
+            let ground = Ground {
+                effect: GroundEffect::None,
+                height_ratio: S::one(),
+            };
+            let answer = solve(&element, &flow, &[place], Descent::Measured, ground);
+            answer.unwrap().induced.axial
+        }
         let airfoil = airfoil();
-        let element = element(&airfoil, 0.1, 0.15);
-        let undisturbed = Undisturbed {
-            speed: 90.0,
-            angle: 0.02,
-        };
-        for phi in [0.05, 0.081, 0.12] {
-            let at = |x: f64| axial_residual(&element, undisturbed, x);
-            let difference = (at(phi + 1e-6) - at(phi - 1e-6)) / 2e-6;
-            let slope = axial_residual(&element, undisturbed, Dual::variable(phi)).slope;
-            assert!(
-                (slope / difference - 1.0).abs() < 1e-7,
-                "{phi}: {slope} {difference}"
-            );
+        for (pitch, climb, edgewise) in [
+            (0.15, 0.0, 0.0),
+            (0.15, 3.0, 0.0),
+            (0.15, -4.0, 0.0),
+            (0.15, 1.0, 20.0),
+            (-0.08, 0.5, 10.0),
+        ] {
+            let plain = |pitch, climb| induced::<f64>(&airfoil, pitch, climb, edgewise);
+            for (by_pitch, by_climb) in [(1.0, 0.0), (0.0, 1.0)] {
+                let step = 1e-6;
+                let (dp, dc) = (by_pitch * step, by_climb * step);
+                let above = plain(pitch + dp, climb + dc);
+                let difference = (above - plain(pitch - dp, climb - dc)) / (2.0 * step);
+                let dual = induced(
+                    &airfoil,
+                    Dual64::new(pitch, by_pitch),
+                    Dual64::new(climb, by_climb),
+                    edgewise,
+                );
+                assert!((dual.re - plain(pitch, climb)).abs() < 1e-12);
+                assert!(
+                    (dual.eps - difference).abs() < 1e-6 * (1.0 + difference.abs()),
+                    "{pitch} {climb} {edgewise}: {} {difference}",
+                    dual.eps
+                );
+            }
         }
     }
 

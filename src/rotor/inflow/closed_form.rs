@@ -26,16 +26,17 @@ use crate::rotor::{
     airfoil::{Airfoil, wrapped},
     element::{Element, SectionLoad},
     root::{End, RootError, bracketed},
+    scalar::Scalar,
     tip_loss::TipLoss,
 };
 
 /// What the closed form answers for an element. SI units.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct ClosedForm {
-    pub load: SectionLoad,
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ClosedForm<S = f64> {
+    pub load: SectionLoad<S>,
     /// Induced velocity at the blade, and its mean around the annulus, positive down.
-    pub induced: f64,
-    pub mean_induced: f64,
+    pub induced: S,
+    pub mean_induced: S,
 }
 
 /// To which the flow through the disc is found, as a part of its bracket.
@@ -49,34 +50,48 @@ const STANDSTILL: f64 = 1e-6;
 /// * `a`: sigma cl_alpha/16 times tip speed, > 0, m/s
 /// * `climb`: m/s
 /// * `pitch_flow`: theta Omega r, m/s
-fn through_flow(a: f64, climb: f64, pitch_flow: f64) -> f64 {
-    if pitch_flow < 0.0 {
+fn through_flow<S: Scalar>(a: S, climb: S, pitch_flow: S) -> S {
+    if pitch_flow.value() < 0.0 {
         return -through_flow(a, -climb, -pitch_flow);
     }
-    let upward = a + 0.5 * climb;
-    let windmill = upward * upward - 2.0 * a * pitch_flow;
-    if upward < 0.0 && windmill >= 0.0 {
-        return upward - libm::sqrt(windmill);
+    let upward = a + climb * 0.5;
+    let windmill = upward * upward - a * 2.0 * pitch_flow;
+    if upward.value() < 0.0 && windmill.value() >= 0.0 {
+        return upward - windmill.sqrt();
     }
-    let half = a - 0.5 * climb;
-    libm::sqrt(half * half + 2.0 * a * pitch_flow) - half
+    let half = a - climb * 0.5;
+    (half * half + a * 2.0 * pitch_flow).sqrt() - half
 }
 
 /// The flow and the loads at one element, axial flow only: `rotation` is Omega r, `climb` the flow
 /// down through the disc, both m/s.
-pub fn solve(element: &Element, rotation: f64, climb: f64) -> Result<ClosedForm, RootError> {
-    if rotation < STANDSTILL {
+pub fn solve<S: Scalar>(
+    element: &Element<S>,
+    rotation: S,
+    climb: S,
+) -> Result<ClosedForm<S>, RootError> {
+    let none = S::zero();
+    if rotation.value() < STANDSTILL {
         // Angles are small against a flow that turns; without one there is no load in this theory.
-        return Ok(ClosedForm::default());
+        return Ok(ClosedForm {
+            load: SectionLoad::none(),
+            induced: none,
+            mean_induced: none,
+        });
     }
     let flow = element.similarity(rotation);
     let (slope, zero_lift) = {
-        let line = |airfoil: &Airfoil| airfoil.lift_line(element.model, element.pitch, flow);
+        let pitch = element.pitch.value();
+        let line = |airfoil: &Airfoil| airfoil.lift_line(element.model, pitch, flow);
         let slope = element.section.mixed(|airfoil| line(airfoil).0);
         let moment = element
             .section
             .mixed(|airfoil| line(airfoil).0 * line(airfoil).1);
-        let zero_lift = if slope == 0.0 { 0.0 } else { moment / slope };
+        let zero_lift = if slope.value() == 0.0 {
+            none
+        } else {
+            moment / slope
+        };
         (slope * element.lifting_share, zero_lift)
     };
     let pitch = element.pitch - zero_lift;
@@ -85,13 +100,13 @@ pub fn solve(element: &Element, rotation: f64, climb: f64) -> Result<ClosedForm,
     // incompressible slope for the lift, and again with the slope corrected at that lift.
     let through = loaded_flow(element, rotation, climb, slope, pitch)?;
     let lift = slope * (pitch - through / rotation);
-    let corrected = if lift == 0.0 {
+    let corrected = if lift.value() == 0.0 {
         slope
     } else {
         let at_mach = |airfoil: &Airfoil| airfoil.compressible(element.model, lift, flow.mach);
         slope * element.section.mixed(at_mach) / lift
     };
-    let through = if corrected == slope {
+    let through = if corrected.value() == slope.value() {
         through
     } else {
         loaded_flow(element, rotation, climb, corrected, pitch)?
@@ -101,7 +116,7 @@ pub fn solve(element: &Element, rotation: f64, climb: f64) -> Result<ClosedForm,
     let angle_of_attack = wrapped(element.pitch - inflow_angle);
     let lift = corrected * (pitch - inflow_angle);
     let drag = element.drag_coefficient(angle_of_attack, rotation);
-    let pressure = 0.5 * element.density * rotation * rotation * element.chord;
+    let pressure = element.density * 0.5 * rotation * rotation * element.chord;
     let induced = through - climb;
     Ok(ClosedForm {
         load: SectionLoad {
@@ -118,54 +133,52 @@ pub fn solve(element: &Element, rotation: f64, climb: f64) -> Result<ClosedForm,
 }
 
 /// Flow through the disc with tip loss.
-fn loaded_flow(
-    element: &Element,
-    rotation: f64,
-    climb: f64,
-    slope: f64,
-    pitch: f64,
-) -> Result<f64, RootError> {
-    if slope <= 0.0 {
+fn loaded_flow<S: Scalar>(
+    element: &Element<S>,
+    rotation: S,
+    climb: S,
+    slope: S,
+    pitch: S,
+) -> Result<S, RootError> {
+    if slope.value() <= 0.0 {
         return Ok(climb); // no lift, nothing induced
     }
     // sigma Omega R/16 with sigma = N c/(pi R) is (N c/(2 pi r)) Omega r/8.
-    let a = element.solidity() * slope * rotation / 8.0;
+    let a = slope * element.solidity() * rotation / 8.0;
     let pitch_flow = pitch * rotation;
-    let with = |factor: f64| through_flow(a / factor, climb, pitch_flow);
-    let without_loss = with(1.0);
+    let with = |factor: S| through_flow(a / factor, climb, pitch_flow);
+    let without_loss = with(S::one());
     if element.tip_loss != TipLoss::Prandtl {
         return Ok(without_loss);
     }
     // F falls from 1 to 0 as the flow goes from `without_loss` to its limit, theta Omega r.
-    let residual = |through: f64| {
+    let residual = |through: S| {
         let factor = factor(element, rotation, through);
-        if factor > 0.0 {
+        if factor.value() > 0.0 {
             through - with(factor)
         } else {
             through - pitch_flow
         }
     };
+    let plain = |through: f64| residual(S::constant(through)).value();
+    let (begin, limit) = (without_loss.value(), pitch_flow.value());
     let first = End {
-        at: without_loss,
-        residual: residual(without_loss),
+        at: begin,
+        residual: plain(begin),
     };
-    let side = if pitch_flow > without_loss { 1.0 } else { -1.0 };
+    let side = if limit > begin { 1.0 } else { -1.0 };
     if first.residual * side >= 0.0 {
         return Ok(without_loss); // F differs from 1 by less than the rounding of the equation
     }
     let last = End {
-        at: pitch_flow,
+        at: limit,
         residual: -first.residual,
     };
-    bracketed(
-        residual,
-        first,
-        last,
-        TOLERANCE * (pitch_flow - without_loss).abs(),
-    )
+    let through = bracketed(plain, first, last, TOLERANCE * (limit - begin).abs())?;
+    Ok(S::at_root(through, residual))
 }
 
-fn factor(element: &Element, rotation: f64, through: f64) -> f64 {
+fn factor<S: Scalar>(element: &Element<S>, rotation: S, through: S) -> S {
     element.tip_loss_factor(through / rotation) // small angle, as in thesis eq. (95)
 }
 

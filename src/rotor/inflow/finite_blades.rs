@@ -29,61 +29,71 @@ use crate::rotor::{
     disc::{DiscFlow, Encounter},
     element::Element,
     root::RootError,
+    scalar::Scalar,
 };
 use core::f64::consts::PI;
 
 /// What a blade's element induces.
 ///
 /// `flow`: of the disc, of which the rotor speed and the speed along the disc count here.
-pub fn solve(
-    element: &Element,
-    meets: &Encounter,
-    flow: &DiscFlow,
+pub fn solve<S: Scalar>(
+    element: &Element<S>,
+    meets: &Encounter<S>,
+    flow: &DiscFlow<S>,
     descent: Descent,
-    ground: Ground,
-) -> Result<Answer, RootError> {
-    let scale = libm::hypot(meets.in_plane, meets.through) + flow.edgewise;
+    ground: Ground<S>,
+) -> Result<Answer<S>, RootError> {
+    let scale = (meets.in_plane.hypot(meets.through) + flow.edgewise).value();
     if scale == 0.0 {
-        return Ok(Answer::default());
+        return Ok(Answer::none());
     }
     let pitch = element.pitch + meets.pitch;
-    let forward = if meets.in_plane < 0.0 { -1.0 } else { 1.0 };
-    let strength = element.blades * flow.rotation.abs() * element.chord * forward / (4.0 * PI);
+    let forward = if meets.in_plane.value() < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
+    let strength = flow.rotation.abs() * element.blades * element.chord * forward / (4.0 * PI);
     // What is left of v near the ground, and the flow that meets the section with it.
-    let met = |v: f64| {
+    let met = |v: S| {
         let axial = ground.factor(flow.edgewise, v) * v;
         let through = meets.through + meets.flap_cos * axial;
-        (axial, through, libm::hypot(meets.in_plane, through))
+        (axial, through, meets.in_plane.hypot(through))
     };
     // As in the annuli, the wake leaves with the air that takes up momentum.
-    let factor = |v: f64, through: f64, speed: f64| {
-        let is_descent = descent != Descent::Momentum && meets.through * v < 0.0;
+    let factor = |v: S, through: S, speed: S| {
+        let is_descent = descent != Descent::Momentum && (meets.through * v).value() < 0.0;
         let leaves = if is_descent {
-            descent.speed(0.0, meets.through, v).min(speed)
+            let leaves = descent.speed(S::zero(), meets.through, v);
+            if leaves.value() < speed.value() {
+                leaves
+            } else {
+                speed
+            }
         } else {
             through
         };
         element.tip_loss_factor(leaves / speed)
     };
-    let momentum = |v: f64| {
+    let momentum = |v: S| {
         let (_, through, speed) = met(v);
-        if speed == 0.0 {
-            return 0.0;
+        if speed.value() == 0.0 {
+            return S::zero();
         }
-        let alpha = pitch - libm::atan2(through, meets.in_plane);
+        let alpha = pitch - through.atan2(meets.in_plane);
         let lift = element.lift_coefficient(alpha, speed);
         strength * speed * lift * meets.flap_cos / factor(v, through, speed)
     };
-    let mass_flow = |v: f64| descent.speed(flow.edgewise, meets.through, v);
+    let mass_flow = |v: S| descent.speed(flow.edgewise, meets.through, v);
     let v = uniform::mean_velocity(mass_flow, meets.through, scale, momentum)?;
     let (axial, through, speed) = met(v);
-    let share = if speed == 0.0 {
-        1.0
+    let share = if speed.value() == 0.0 {
+        S::one()
     } else {
         factor(v, through, speed)
     };
     Ok(Answer {
-        induced: Induced { axial, swirl: 0.0 },
+        induced: Induced::axial(axial),
         mean_axial: share * axial,
     })
 }

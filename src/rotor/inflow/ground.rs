@@ -13,6 +13,8 @@
 //! Ours: below z = R/2, where neither was tried and the first would become infinite, the height counts as R/2;
 //! from 2 R up both fade, and are gone at 3 R.
 
+use crate::rotor::scalar::Scalar;
+
 /// The choice of model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum GroundEffect {
@@ -24,45 +26,47 @@ pub enum GroundEffect {
 
 /// The rotor near the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Ground {
+pub struct Ground<S = f64> {
     pub effect: GroundEffect,
     /// z/R of the hub, >= 0.
-    pub height_ratio: f64,
+    pub height_ratio: S,
 }
 
 /// z/R below which the effect stays the same, and between which it fades out.
 const LOWEST: f64 = 0.5;
 const FADING: (f64, f64) = (2.0, 3.0);
 
-impl Ground {
+impl<S: Scalar> Ground<S> {
     /// Whether the ground is not felt at all.
     pub fn is_far(&self) -> bool {
-        self.effect == GroundEffect::None || self.height_ratio >= FADING.1
+        self.effect == GroundEffect::None || self.height_ratio.value() >= FADING.1
     }
 
     /// k, 0 to 1: the part of the induced velocity that is left. `edgewise` (>= 0) and `induced`, m/s.
-    pub fn factor(&self, edgewise: f64, induced: f64) -> f64 {
+    pub fn factor(&self, edgewise: S, induced: S) -> S {
         if self.is_far() {
-            return 1.0;
+            return S::one();
         }
-        let height = self.height_ratio.max(LOWEST);
-        let t = ((height - FADING.0) / (FADING.1 - FADING.0)).clamp(0.0, 1.0);
-        let left = 1.0 - t * t * (3.0 - 2.0 * t);
+        let height = self.height_ratio.at_least(LOWEST);
+        let t = ((height - FADING.0) / (FADING.1 - FADING.0))
+            .at_least(0.0)
+            .at_most(1.0);
+        let left = -(t * t * (-(t * 2.0) + 3.0)) + 1.0;
         let (along, down) = (edgewise * edgewise, induced * induced);
-        let slow = if along == 0.0 {
-            1.0
+        let slow = if along.is_nothing(0.0) {
+            S::one()
         } else {
             down / (down + along)
         };
         match self.effect {
-            GroundEffect::None => 1.0,
+            GroundEffect::None => S::one(),
             GroundEffect::CheesemanBennett => {
-                let thrust = 1.0 - left * slow / (16.0 * height * height);
-                thrust * libm::sqrt(thrust)
+                let thrust = -(left * slow / (height * 16.0 * height)) + 1.0;
+                thrust * thrust.sqrt()
             }
             GroundEffect::Hayden => {
-                let power = 1.0 / (0.9926 + 0.0379 * 4.0 / (height * height));
-                1.0 - left * slow * (1.0 - power)
+                let power = S::one() / (S::constant(0.0379 * 4.0) / (height * height) + 0.9926);
+                -(left * slow * (-power + 1.0)) + 1.0
             }
         }
     }

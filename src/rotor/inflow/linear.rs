@@ -2,6 +2,7 @@
 //! psi)), x = r/R, psi from downwind. The coefficients are those collected in Leishman 2006,
 //! "Principles of Helicopter Aerodynamics", table 3.1; the thesis' table 5.
 
+use crate::rotor::scalar::Scalar;
 use core::f64::consts::{PI, SQRT_2};
 
 /// How the induced velocity varies over the disc with the skew of the wake.
@@ -32,10 +33,10 @@ pub enum Skew {
 const LARGEST_FLOW: f64 = 0.5;
 
 /// The distribution's coefficients.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Coefficients {
-    pub kx: f64,
-    pub ky: f64,
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Coefficients<S = f64> {
+    pub kx: S,
+    pub ky: S,
 }
 
 impl Skew {
@@ -57,27 +58,37 @@ impl Skew {
     /// that leaves downwards. Written with h = sqrt(edgewise^2 + through^2), sin chi = edgewise/h and
     /// tan(chi/2) = edgewise/(h + |through|), nothing divides by zero but in still air, where all are 0.
     /// Drees' terms in mu alone are held beyond `LARGEST_FLOW`.
-    pub fn coefficients(self, edgewise: f64, through: f64, tip_speed: f64) -> Coefficients {
-        let flow = libm::hypot(edgewise, through);
-        if flow == 0.0 {
-            return Coefficients::default();
+    pub fn coefficients<S: Scalar>(self, edgewise: S, through: S, tip_speed: S) -> Coefficients<S> {
+        let flow = edgewise.hypot(through);
+        if flow.value() == 0.0 {
+            let (kx, ky) = (S::zero(), S::zero());
+            return Coefficients { kx, ky };
         }
         let sin = edgewise / flow;
         let half_tangent = edgewise / (flow + through.abs());
-        let reference = tip_speed.max(flow / LARGEST_FLOW);
+        let largest = flow / LARGEST_FLOW;
+        let reference = if tip_speed.value() > largest.value() {
+            tip_speed
+        } else {
+            largest
+        };
         let mu = edgewise / reference;
         let kx = match self {
-            Self::Uniform => 0.0,
+            Self::Uniform => S::zero(),
             Self::Coleman => half_tangent,
             // (1 - cos chi)/sin chi = tan(chi/2), and mu/sin chi = h/tip speed.
-            Self::Drees => 4.0 / 3.0 * (half_tangent - 1.8 * mu * flow / reference),
-            Self::Payne => 4.0 / 3.0 * edgewise / (1.2 * through.abs() + edgewise),
-            Self::WhiteBlake => SQRT_2 * sin,
-            Self::PittPeters => 15.0 * PI / 32.0 * half_tangent,
+            Self::Drees => (half_tangent - mu * 1.8 * flow / reference) * (4.0 / 3.0),
+            Self::Payne => edgewise * (4.0 / 3.0) / (through.abs() * 1.2 + edgewise),
+            Self::WhiteBlake => sin * SQRT_2,
+            Self::PittPeters => half_tangent * (15.0 * PI / 32.0),
             Self::Howlett => sin * sin,
-            Self::GlauertHighSpeed => 1.2 * sin,
+            Self::GlauertHighSpeed => sin * 1.2,
         };
-        let ky = if self == Self::Drees { -2.0 * mu } else { 0.0 };
+        let ky = if self == Self::Drees {
+            mu * -2.0
+        } else {
+            S::zero()
+        };
         Coefficients { kx, ky }
     }
 }

@@ -13,7 +13,7 @@ pub mod uniform;
 pub use descent::Descent;
 pub use linear::Skew;
 
-use super::disc::Azimuth;
+use super::{disc::Azimuth, scalar::Scalar};
 
 /// The choice of model.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,45 +34,61 @@ pub enum Inflow {
 
 /// Velocity induced at a blade, m/s.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Induced {
+pub struct Induced<S = f64> {
     /// Down through the disc.
-    pub axial: f64,
+    pub axial: S,
     /// With the motion of the blade.
-    pub swirl: f64,
+    pub swirl: S,
+}
+
+impl<S: Scalar> Induced<S> {
+    /// Along the shaft only, m/s.
+    pub fn axial(axial: S) -> Self {
+        Self {
+            axial,
+            swirl: S::zero(),
+        }
+    }
 }
 
 /// Induced velocity over the disc: v = mean + x (cosine cos psi + sine sin psi), x = r/R, m/s.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Field {
-    pub mean: f64,
+pub struct Field<S = f64> {
+    pub mean: S,
     /// Growth from the shaft to the tip towards psi = 0.
-    pub cosine: f64,
+    pub cosine: S,
     /// And towards psi = 90 deg.
-    pub sine: f64,
+    pub sine: S,
 }
 
-impl Field {
-    /// At a radius r/R and an azimuth.
-    pub fn at(&self, radius_ratio: f64, azimuth: Azimuth) -> Induced {
-        let slope = self.cosine * azimuth.cos + self.sine * azimuth.sin;
-        Induced {
-            axial: self.mean + radius_ratio * slope,
-            swirl: 0.0,
+impl<S: Scalar> Field<S> {
+    /// Of a rotor that induces nothing.
+    pub fn none() -> Self {
+        Self {
+            mean: S::zero(),
+            cosine: S::zero(),
+            sine: S::zero(),
         }
     }
 
+    /// At a radius r/R and an azimuth.
+    pub fn at(&self, radius_ratio: f64, azimuth: Azimuth<S>) -> Induced<S> {
+        let slope = self.cosine * azimuth.cos + self.sine * azimuth.sin;
+        Induced::axial(self.mean + slope * radius_ratio)
+    }
+
     /// `factor * self`.
-    pub fn scaled(&self, factor: f64) -> Self {
-        Self::default().plus(factor, self)
+    pub fn scaled(&self, factor: S) -> Self {
+        Self::none().plus(factor, self)
     }
 
     /// Whether all azimuths are alike but for `none` m/s.
     pub fn is_axisymmetric(&self, none: f64) -> bool {
-        self.cosine.abs() <= none && self.sine.abs() <= none
+        self.cosine.is_nothing(none) && self.sine.is_nothing(none)
     }
 
     /// `self + factor * other`.
-    pub fn plus(&self, factor: f64, other: &Self) -> Self {
+    pub fn plus(&self, factor: S, other: &Self) -> Self {
         Self {
             mean: self.mean + factor * other.mean,
             cosine: self.cosine + factor * other.cosine,
@@ -80,7 +96,7 @@ impl Field {
         }
     }
 
-    pub fn to_array(self) -> [f64; 3] {
+    pub fn to_array(self) -> [S; 3] {
         [self.mean, self.cosine, self.sine]
     }
 }

@@ -42,6 +42,7 @@
 //! grows from 1.2 ... 3.3 at X = 0 to 3.3, 9.6, 13, 27, 29, 47 for orders 1 ... 6. X needs no limit.
 
 use super::{Field, descent::MassFlow, pitt_peters::Stream};
+use crate::rotor::scalar::Scalar;
 use core::f64::consts::PI;
 
 pub const MOST_ORDER: usize = 6;
@@ -49,13 +50,13 @@ pub const MOST_HARMONICS: usize = 4;
 pub const MOST_STATES: usize = 24;
 const MOST_COSINES: usize = 14;
 
-type Matrix = [[f64; MOST_COSINES]; MOST_COSINES];
+type Matrix<S = f64> = [[S; MOST_COSINES]; MOST_COSINES];
 
 /// cos(m psi) and sin(m psi), m from 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Harmonics {
-    pub cos: [f64; MOST_HARMONICS + 1],
-    pub sin: [f64; MOST_HARMONICS + 1],
+pub struct Harmonics<S = f64> {
+    pub cos: [S; MOST_HARMONICS + 1],
+    pub sin: [S; MOST_HARMONICS + 1],
 }
 
 /// The wake of a rotor up to a power of the radius.
@@ -115,10 +116,10 @@ const fn bounds(by_column: [f64; 5]) -> Bounds {
 }
 
 /// The parameters of the flow through the rotor: VT, Vm, m/s, and X.
-struct Flow {
-    total: f64,
-    changes: f64,
-    skew: f64,
+struct Flow<S> {
+    total: S,
+    changes: S,
+    skew: S,
 }
 
 impl Wake {
@@ -195,10 +196,10 @@ impl Wake {
 
     /// Of the azimuth with these cosine and sine. Both zero is an azimuth without a direction, of which
     /// m = 0 is left.
-    pub fn harmonics(cos: f64, sin: f64) -> Harmonics {
+    pub fn harmonics<S: Scalar>(cos: S, sin: S) -> Harmonics<S> {
         let mut all = Harmonics {
-            cos: [1.0; MOST_HARMONICS + 1],
-            sin: [0.0; MOST_HARMONICS + 1],
+            cos: [S::one(); MOST_HARMONICS + 1],
+            sin: [S::zero(); MOST_HARMONICS + 1],
         };
         for m in 0..MOST_HARMONICS {
             all.cos[m + 1] = all.cos[m] * cos - all.sin[m] * sin;
@@ -208,46 +209,58 @@ impl Wake {
     }
 
     /// The velocity induced at a blade element, down, m/s.
-    pub fn velocity(&self, states: &[f64], element: usize, harmonics: &Harmonics) -> f64 {
+    pub fn velocity<S: Scalar>(&self, states: &[S], element: usize, harmonics: &Harmonics<S>) -> S {
         let (axial, radial) = self.radial_at(element).split_at(self.axial);
         let (means, others) = states.split_at(self.axial);
         let (cosines, sines) = others.split_at(radial.len());
-        let mut velocity = 0.0;
+        let mut velocity = S::zero();
         for (phi, state) in axial.iter().zip(means) {
-            velocity += phi * state;
+            velocity += *state * *phi;
         }
         let indices = &self.indices[self.axial..];
         for (((phi, cosine), sine), (m, _)) in radial.iter().zip(cosines).zip(sines).zip(indices) {
-            velocity += phi * (cosine * harmonics.cos[*m] + sine * harmonics.sin[*m]);
+            velocity += (*cosine * harmonics.cos[*m] + *sine * harmonics.sin[*m]) * *phi;
         }
         velocity
     }
 
     /// Adds a blade element at an azimuth to the loading tau, m2/s2. `force`: its thrust over rho R^2,
     /// or the mean share of it where blades are averaged over the turn; (92) to (94).
-    pub fn add_load(&self, loading: &mut [f64], element: usize, harmonics: &Harmonics, force: f64) {
+    pub fn add_load<S: Scalar>(
+        &self,
+        loading: &mut [S],
+        element: usize,
+        harmonics: &Harmonics<S>,
+        force: S,
+    ) {
         let (axial, radial) = self.radial_at(element).split_at(self.axial);
         let (means, others) = loading.split_at_mut(self.axial);
         let (cosines, sines) = others.split_at_mut(radial.len());
         let force = force / PI;
         for (tau, phi) in means.iter_mut().zip(axial) {
-            *tau += 0.5 * force * phi;
+            *tau += force * 0.5 * *phi;
         }
         let indices = &self.indices[self.axial..];
         for (((phi, cosine), sine), (m, _)) in radial.iter().zip(cosines).zip(sines).zip(indices) {
-            *cosine += force * phi * harmonics.cos[*m];
-            *sine += force * phi * harmonics.sin[*m];
+            *cosine += force * *phi * harmonics.cos[*m];
+            *sine += force * *phi * harmonics.sin[*m];
         }
     }
 
     /// Rates of the states, m/s2, under a loading tau, m2/s2.
-    pub fn rate(&self, states: &[f64], loading: &[f64], stream: &Stream, rates: &mut [f64]) {
+    pub fn rate<S: Scalar>(
+        &self,
+        states: &[S],
+        loading: &[S],
+        stream: &Stream<S>,
+        rates: &mut [S],
+    ) {
         let (states, loading) = (&states[..self.len()], &loading[..self.len()]);
         let flow = self.flow(states, stream);
         let cosines = self.indices.len();
-        let mut pressures = [0.0; MOST_STATES];
+        let mut pressures = [S::zero(); MOST_STATES];
         pressures[..states.len()].copy_from_slice(states);
-        if flow.total > 0.0 {
+        if flow.total.value() > 0.0 {
             let (of_cosines, of_sines) = pressures.split_at_mut(cosines);
             solve(&mut self.gains(flow.skew, 0), &mut of_cosines[..cosines]);
             let sines = cosines - self.axial;
@@ -261,16 +274,16 @@ impl Wake {
             .chain(&self.mass[self.axial..cosines]);
         for (i, (rate, mass)) in rates.iter_mut().zip(masses).enumerate() {
             let speed = if i == 0 { flow.total } else { flow.changes }; // (84), (85)
-            *rate = (0.5 * loading[i] - speed * pressures[i]) / (mass * stream.radius);
+            *rate = (loading[i] * 0.5 - speed * pressures[i]) / (*mass * stream.radius);
         }
     }
 
     /// The same field (or loading) in axes that are turned by an angle about the shaft, psi' = psi -
     /// angle, in the sense of `WindAxes::field_into_wind`; -sin turns back.
-    pub fn rotated(&self, states: &[f64], cos: f64, sin: f64) -> [f64; MOST_STATES] {
+    pub fn rotated<S: Scalar>(&self, states: &[S], cos: S, sin: S) -> [S; MOST_STATES] {
         let turn = Self::harmonics(cos, sin);
         let cosines = self.indices.len();
-        let mut turned = [0.0; MOST_STATES];
+        let mut turned = [S::zero(); MOST_STATES];
         turned[..self.axial].copy_from_slice(&states[..self.axial]);
         for (i, (m, _)) in self.indices.iter().enumerate().skip(self.axial) {
             let k = i + cosines - self.axial;
@@ -306,21 +319,21 @@ impl Wake {
     }
 
     /// Mean of v over the disc, m/s.
-    pub fn mean(&self, states: &[f64]) -> f64 {
+    pub fn mean<S: Scalar>(&self, states: &[S]) -> S {
         let means = &self.means[..self.axial];
-        means.iter().zip(states).map(|(mean, x)| mean * x).sum()
+        means.iter().zip(states).map(|(mean, x)| *x * *mean).sum()
     }
 
     /// Mean of v around the annulus of a blade element, m/s.
-    pub fn mean_at(&self, states: &[f64], element: usize) -> f64 {
+    pub fn mean_at<S: Scalar>(&self, states: &[S], element: usize) -> S {
         let axial = self.radial_at(element).iter().take(self.axial);
-        axial.zip(states).map(|(phi, state)| phi * state).sum()
+        axial.zip(states).map(|(phi, state)| *state * *phi).sum()
     }
 
     /// Whether all azimuths are alike but for `none` m/s in each state.
-    pub fn is_axisymmetric(&self, states: &[f64], none: f64) -> bool {
+    pub fn is_axisymmetric<S: Scalar>(&self, states: &[S], none: f64) -> bool {
         let others = states.iter().take(self.len()).skip(self.axial);
-        others.into_iter().all(|state| state.abs() <= none)
+        others.into_iter().all(|state| state.is_nothing(none))
     }
 
     /// The states of a field that looks like a linear one: the same mean, and the first functions for its
@@ -343,7 +356,7 @@ impl Wake {
     }
 
     /// (78), (86), (87), with the mean over the disc for the induced velocity.
-    fn flow(&self, states: &[f64], stream: &Stream) -> Flow {
+    fn flow<S: Scalar>(&self, states: &[S], stream: &Stream<S>) -> Flow<S> {
         let induced = self.mean(states);
         let MassFlow { speed, slope } =
             stream
@@ -357,13 +370,13 @@ impl Wake {
     }
 
     /// L: (74) and (75) of all cosines, or (76) of the sines, where `first` leaves m = 0 out.
-    fn gains(&self, skew: f64, first: usize) -> Matrix {
+    fn gains<S: Scalar>(&self, skew: S, first: usize) -> Matrix<S> {
         let sign = if first == 0 { 1.0 } else { -1.0 };
-        let mut powers = [1.0; 2 * MOST_HARMONICS + 1];
+        let mut powers = [S::one(); 2 * MOST_HARMONICS + 1];
         for m in 1..powers.len() {
             powers[m] = powers[m - 1] * skew;
         }
-        let mut factors = [[0.0; MOST_HARMONICS + 1]; MOST_HARMONICS + 1];
+        let mut factors = [[S::zero(); MOST_HARMONICS + 1]; MOST_HARMONICS + 1];
         for (r, row) in factors.iter_mut().enumerate() {
             for (m, factor) in row.iter_mut().enumerate() {
                 let sign = if r.min(m).is_multiple_of(2) {
@@ -373,11 +386,11 @@ impl Wake {
                 };
                 *factor = match r {
                     0 => powers[m],
-                    _ => powers[m.abs_diff(r)] + sign * powers[m + r],
+                    _ => powers[m.abs_diff(r)] + powers[m + r] * sign,
                 };
             }
         }
-        let mut gains = [[0.0; MOST_COSINES]; MOST_COSINES];
+        let mut gains = [[S::zero(); MOST_COSINES]; MOST_COSINES];
         let indices = &self.indices[first..];
         for (i, (r, _)) in indices.iter().enumerate() {
             for (k, (m, _)) in indices.iter().enumerate() {
@@ -438,28 +451,29 @@ fn gamma(r: usize, m: usize, j: usize, n: usize) -> f64 {
 
 /// Replaces the right side by the solution: Gaussian elimination with row exchanges (Golub & Van Loan
 /// 2013, algorithm 3.4.1).
-fn solve(matrix: &mut Matrix, right: &mut [f64]) {
+fn solve<S: Scalar>(matrix: &mut Matrix<S>, right: &mut [S]) {
     let size = right.len();
     for i in 0..size {
         let mut pivot = i;
         for k in i + 1..size {
-            if matrix[k][i].abs() > matrix[pivot][i].abs() {
+            if matrix[k][i].value().abs() > matrix[pivot][i].value().abs() {
                 pivot = k;
             }
         }
         matrix.swap(i, pivot);
         right.swap(i, pivot);
         let row = matrix[i];
-        let inverse = 1.0 / row[i];
+        let inverse = S::one() / row[i];
         for k in i + 1..size {
             let factor = matrix[k][i] * inverse;
-            if factor == 0.0 {
+            if factor.is_nothing(0.0) {
                 continue; // Gamma is sparse
             }
             for (entry, above) in matrix[k][i + 1..size].iter_mut().zip(&row[i + 1..size]) {
-                *entry -= factor * above;
+                *entry -= factor * *above;
             }
-            right[k] -= factor * right[i];
+            let above = right[i];
+            right[k] -= factor * above;
         }
     }
     for i in (0..size).rev() {

@@ -26,22 +26,23 @@ use super::{
     Field,
     descent::{Descent, MassFlow},
 };
+use crate::rotor::scalar::Scalar;
 use core::f64::consts::PI;
 
 /// The loading of the disc over rho A, m2/s2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Loading {
-    pub thrust: f64,
-    pub cosine: f64,
-    pub sine: f64,
+pub struct Loading<S = f64> {
+    pub thrust: S,
+    pub cosine: S,
+    pub sine: S,
 }
 
 /// The flow through a rotor of radius R: along the disc and down through it without what it
 /// induces, m/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stream {
-    pub edgewise: f64,
-    pub climb: f64,
+pub struct Stream<S = f64> {
+    pub edgewise: S,
+    pub climb: S,
     pub radius: f64,
     pub descent: Descent,
 }
@@ -50,54 +51,55 @@ const APPARENT_MASS: f64 = 8.0 / (3.0 * PI);
 const APPARENT_INERTIA: f64 = 16.0 / (45.0 * PI);
 
 /// V L^-1, m/s, by its entries that are not zero.
-struct Gains {
-    mean: f64,
-    mean_by_cosine: f64,
-    cosine: f64,
-    cosine_by_mean: f64,
-    sine: f64,
+struct Gains<S> {
+    mean: S,
+    mean_by_cosine: S,
+    cosine: S,
+    cosine_by_mean: S,
+    sine: S,
 }
 
-impl Stream {
-    fn gains(&self, induced: f64) -> Gains {
+impl<S: Scalar> Stream<S> {
+    fn gains(&self, induced: S) -> Gains<S> {
         let MassFlow {
             speed: total,
             slope: slopes,
         } = self.descent.mass_flow(self.edgewise, self.climb, induced);
-        if total == 0.0 {
+        if total.value() == 0.0 {
+            // What little the mass flow may change meets a field that is not there.
             return Gains {
-                mean: 0.0,
-                mean_by_cosine: 0.0,
-                cosine: 0.0,
-                cosine_by_mean: 0.0,
-                sine: 0.0,
+                mean: S::zero(),
+                mean_by_cosine: S::zero(),
+                cosine: S::zero(),
+                cosine_by_mean: S::zero(),
+                sine: S::zero(),
             };
         }
         let skew = self.skew(induced);
-        let coupling = 15.0 * PI / 64.0 * skew;
-        let (a, d) = (0.5, 2.0 * (1.0 - skew * skew));
-        let determinant = a * d + coupling * coupling;
+        let coupling = skew * (15.0 * PI / 64.0);
+        let (a, d) = (0.5, (-(skew * skew) + 1.0) * 2.0);
+        let determinant = d * a + coupling * coupling;
         Gains {
             mean: total * d / determinant,
             mean_by_cosine: total * coupling / determinant,
             cosine: slopes * a / determinant,
             cosine_by_mean: -slopes * coupling / determinant,
-            sine: slopes / (2.0 * (1.0 + skew * skew)),
+            sine: slopes / ((skew * skew + 1.0) * 2.0),
         }
     }
 
     /// X = tan(chi/2) of the wake's skew, 0 in still air.
-    pub fn skew(&self, induced: f64) -> f64 {
+    pub fn skew(&self, induced: S) -> S {
         let through = self.climb + induced;
-        let resultant = libm::hypot(self.edgewise, through);
-        if resultant == 0.0 {
-            return 0.0;
+        let resultant = self.edgewise.hypot(through);
+        if resultant.value() == 0.0 {
+            return S::zero();
         }
         self.edgewise / (resultant + through.abs())
     }
 
     /// dv/dt, m/s2.
-    pub fn rate(&self, field: &Field, loading: &Loading) -> Field {
+    pub fn rate(&self, field: &Field<S>, loading: &Loading<S>) -> Field<S> {
         let gains = self.gains(field.mean);
         let mean = gains.mean * field.mean + gains.mean_by_cosine * field.cosine;
         let cosine = gains.cosine * field.cosine + gains.cosine_by_mean * field.mean;
@@ -108,7 +110,9 @@ impl Stream {
             sine: (loading.sine - sine) / (APPARENT_INERTIA * self.radius),
         }
     }
+}
 
+impl Stream {
     /// An estimate of how fast the states move towards their equilibrium, 1/s, for steps in time. To
     /// what the wake carries away comes the damping by the blades with a lift slope of 2 pi:
     /// `solidity` N c/(pi R), `tip_speed` m/s.

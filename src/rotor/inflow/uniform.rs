@@ -13,7 +13,10 @@
 //! As in the annulus, the windmill (air passing upwards) is taken where it exists, that is where
 //! the sides change their order before v0 = -V_c/2; else the root beyond.
 
-use crate::rotor::root::{End, RootError, bracketed};
+use crate::rotor::{
+    root::{End, RootError, bracketed},
+    scalar::Scalar,
+};
 
 /// To which the induced velocity is found, as a part of the largest speed in the problem.
 const TOLERANCE: f64 = 1e-13;
@@ -27,13 +30,19 @@ const LARGEST_GROWTH: u32 = 60;
 /// * `climb`: flow down through the disc, m/s
 /// * `scale`: a speed > 0 of the order of the largest in the problem, m/s
 /// * `thrust_per_density_area`: thrust of the blades over rho A in the inflow v0, m2/s2
-pub fn mean_velocity(
-    mass_flow: impl Fn(f64) -> f64,
-    climb: f64,
+pub fn mean_velocity<S: Scalar>(
+    mass_flow: impl Fn(S) -> S,
+    climb: S,
     scale: f64,
-    thrust_per_density_area: impl Fn(f64) -> f64,
-) -> Result<f64, RootError> {
-    let equation = |v: f64| 2.0 * v * mass_flow(v) - thrust_per_density_area(v);
+    thrust_per_density_area: impl Fn(S) -> S,
+) -> Result<S, RootError> {
+    let equation = |v: S| v * 2.0 * mass_flow(v) - thrust_per_density_area(v);
+    let found = root(|v| equation(S::constant(v)).value(), climb.value(), scale)?;
+    Ok(S::at_root(found, equation))
+}
+
+/// The root of the equation that belongs to a climb, both in m/s.
+fn root(equation: impl Fn(f64) -> f64, climb: f64, scale: f64) -> Result<f64, RootError> {
     let end = |at: f64| End {
         at,
         residual: equation(at),
@@ -78,9 +87,9 @@ mod tests {
     #[test]
     fn hover_gives_the_square_root_of_half_the_thrust_coefficient() {
         for ct in [1e-5, 0.005, 0.02] {
-            let lambda = mean_velocity(f64::abs, 0.0, 1.0, |_| ct).unwrap();
+            let lambda = mean_velocity(|v: f64| v.abs(), 0.0, 1.0, |_| ct).unwrap();
             assert!((lambda - libm::sqrt(ct / 2.0)).abs() < 2e-13);
-            let down = mean_velocity(f64::abs, 0.0, 1.0, |_| -ct).unwrap();
+            let down = mean_velocity(|v: f64| v.abs(), 0.0, 1.0, |_| -ct).unwrap();
             assert!(
                 (down + lambda).abs() < 2e-13,
                 "negative thrust induces upwards"

@@ -12,7 +12,10 @@
 //! (The report was not at hand; its numbers are those in the open-source implementation of TU
 //! Braunschweig, which cites the pages.)
 
-use crate::rotor::root::{End, bracketed};
+use crate::rotor::{
+    root::{End, RootError, bracketed},
+    scalar::Scalar,
+};
 
 /// Baseline, p. 24.
 const A: f64 = -1.5;
@@ -32,43 +35,59 @@ const NEWTON_STEPS: u32 = 30;
 
 /// The boundary of instability at a V_x, all V_z in units of v_h.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Boundary {
-    pub upper: f64,
-    pub lower: f64,
+pub struct Boundary<S = f64> {
+    pub upper: S,
+    pub lower: S,
     /// Where the model has gone over to the windmill.
-    pub end: f64,
+    pub end: S,
 }
 
-impl Boundary {
+impl<S: Scalar> Boundary<S> {
     /// None beyond V_xM.
-    pub fn at(edgewise: f64) -> Option<Self> {
-        if edgewise.is_nan() || edgewise >= V_XM {
+    pub fn at(edgewise: S) -> Option<Self> {
+        if edgewise.value().is_nan() || edgewise.value() >= V_XM {
             return None;
         }
-        let part = 1.0 - (edgewise / V_XM) * (edgewise / V_XM);
+        let part = -((edgewise / V_XM) * (edgewise / V_XM)) + 1.0;
         let (middle, half) = (0.5 * (N + X), 0.5 * (N - X));
-        let upper = middle + half * libm::pow(part, 0.2);
-        let lower = middle - half * libm::pow(part, 1.5);
+        let upper = part.power(0.2) * half + middle;
+        let lower = -(part.power(1.5) * half) + middle;
         Some(Self {
             upper,
             lower,
-            end: E + (lower - X),
+            end: (lower - X) + E,
         })
     }
 }
 
 /// V' at V_x (>= 0), V_c (<= 0) and v (>= 0), m/s: v_h^2/v, v_h such that the model gives v.
-pub fn speed(edgewise: f64, climb: f64, induced: f64) -> f64 {
-    if induced == 0.0 {
-        return libm::hypot(edgewise, climb);
+pub fn speed<S: Scalar>(edgewise: S, climb: S, induced: S) -> S {
+    if induced.value() == 0.0 {
+        return edgewise.hypot(climb);
     }
-    let surplus = |hover: f64| hover * ratio(edgewise / hover, climb / hover) - induced;
+    let surplus = |hover: S| hover * ratio(edgewise / hover, climb / hover) - induced;
+    match hover_velocity(
+        |hover| surplus(S::constant(hover)).value(),
+        libm::hypot(edgewise.value(), climb.value()),
+        induced.value(),
+    ) {
+        Ok(hover) => {
+            let hover = S::at_root(hover, surplus);
+            hover * hover / induced
+        }
+        // Not seen; the rotor's solution then fails with an error.
+        Err(_) => S::constant(f64::NAN),
+    }
+}
+
+/// The v_h at which nothing is left of `surplus`; `flow` and `induced`, m/s.
+fn hover_velocity(surplus: impl Fn(f64) -> f64, flow: f64, induced: f64) -> Result<f64, RootError> {
     let end = |at: f64| End {
         at,
         residual: surplus(at),
     };
     // Fast flow past a hardly loaded rotor induces little; a loaded one in slow flow induces its v_h.
-    let scale = libm::hypot(edgewise, climb) + induced;
+    let scale = flow + induced;
     let (mut low, mut high) = (end(1e-3 * libm::sqrt(induced * scale)), end(induced));
     for _ in 0..60 {
         if low.residual <= 0.0 {
@@ -82,16 +101,12 @@ pub fn speed(edgewise: f64, climb: f64, induced: f64) -> f64 {
         }
         high = end(2.0 * high.at);
     }
-    match bracketed(surplus, low, high, 1e-13 * scale) {
-        Ok(hover) => hover * hover / induced,
-        // Not seen; the rotor's solution then fails with an error.
-        Err(_) => f64::NAN,
-    }
+    bracketed(surplus, low, high, 1e-13 * scale)
 }
 
 /// v in units of v_h.
-fn ratio(edgewise: f64, climb: f64) -> f64 {
-    if climb >= 0.0 {
+fn ratio<S: Scalar>(edgewise: S, climb: S) -> S {
+    if climb.value() >= 0.0 {
         return helicopter(edgewise, climb);
     }
     let base = baseline(edgewise, climb);
@@ -99,49 +114,49 @@ fn ratio(edgewise: f64, climb: f64) -> f64 {
         return base;
     };
     let Boundary { upper, lower, end } = boundary;
-    if !(end < climb && climb < D) {
+    if !(end.value() < climb.value() && climb.value() < D) {
         return base;
     }
     let share = edgewise / V_XM;
-    let fade = libm::sqrt(1.0 - libm::pow(share, 6.0));
-    let at = |v_z: f64, through: f64, own: f64| Knot {
+    let fade = (-share.power(6.0) + 1.0).sqrt();
+    let at = |v_z: S, through: f64, own: f64| Knot {
         at: v_z,
         value: fade * (through - (own + helicopter(0.0, own))),
         // The boundary lies above A, where the baseline is momentum theory.
-        slope: -fade * (1.0 + helicopter_slope(edgewise, v_z)),
+        slope: -fade * (helicopter_slope(edgewise, v_z) + 1.0),
     };
     let n = at(upper, THROUGH_N, N);
     let x = at(lower, THROUGH_X, X);
     let nothing = Knot {
-        at: D,
-        value: 0.0,
-        slope: 0.0,
+        at: S::constant(D),
+        value: S::zero(),
+        slope: S::zero(),
     };
-    let more = if climb >= upper {
+    let more = if climb.value() >= upper.value() {
         hermite(&n, &nothing, climb)
-    } else if climb >= lower {
+    } else if climb.value() >= lower.value() {
         hermite(&x, &n, climb)
     } else {
-        through_origin(&x, end, 0.0, climb)
+        through_origin(&x, end, S::zero(), climb)
     };
     base + more
 }
 
 /// Momentum theory with its branches joined.
-fn baseline(edgewise: f64, climb: f64) -> f64 {
-    if climb >= 0.0 || edgewise >= V_XC {
+fn baseline<S: Scalar>(edgewise: S, climb: S) -> S {
+    if climb.value() >= 0.0 || edgewise.value() >= V_XC {
         return helicopter(edgewise, climb);
     }
     let part = edgewise / V_XC;
-    let a = A + 0.2 * part * part;
-    let mut b = B + 0.2 * part * part;
-    if part > 0.5 {
-        let beyond = 2.0 * part - 1.0;
-        b += 0.7 * (a - b) * beyond * beyond * beyond;
+    let a = part * 0.2 * part + A;
+    let mut b = part * 0.2 * part + B;
+    if part.value() > 0.5 {
+        let beyond = part * 2.0 - 1.0;
+        b += (a - b) * 0.7 * beyond * beyond * beyond;
     }
-    if climb > a {
+    if climb.value() > a.value() {
         helicopter(edgewise, climb)
-    } else if climb < b {
+    } else if climb.value() < b.value() {
         windmill(edgewise, climb)
     } else {
         let knot = Knot {
@@ -155,42 +170,48 @@ fn baseline(edgewise: f64, climb: f64) -> f64 {
 
 /// The root of v sqrt(V_x^2 + (V_z + v)^2) = 1 that continues hover, the largest: by Newton's method from
 /// above, where the left side rises ever faster.
-fn helicopter(edgewise: f64, climb: f64) -> f64 {
-    if edgewise == 0.0 {
-        return -0.5 * climb + libm::sqrt(0.25 * climb * climb + 1.0);
+fn helicopter<S: Scalar>(edgewise: S, climb: S) -> S {
+    if edgewise.value() == 0.0 {
+        return climb * -0.5 + (climb * 0.25 * climb + 1.0).sqrt();
     }
-    let mut v = 1.0 + climb.abs();
+    let (v_x, v_z) = (edgewise.value(), climb.value());
+    let mut v = 1.0 + v_z.abs();
     for _ in 0..NEWTON_STEPS {
-        let through = climb + v;
-        let flow = libm::sqrt(edgewise * edgewise + through * through);
+        let through = v_z + v;
+        let flow = libm::sqrt(v_x * v_x + through * through);
         let step = (v * flow - 1.0) / (flow + v * through / flow);
         v -= step;
         if step.abs() <= 1e-14 * v.abs() {
-            return v;
+            return S::at_root(v, |v| momentum_surplus(edgewise, climb, v));
         }
     }
-    momentum(edgewise, climb, 0.0_f64.max(-climb), 1.0 + climb.abs())
+    momentum(edgewise, climb, 0.0_f64.max(-v_z), 1.0 + v_z.abs())
 }
 
 /// dv/dV_z of that root.
-fn helicopter_slope(edgewise: f64, climb: f64) -> f64 {
+fn helicopter_slope<S: Scalar>(edgewise: S, climb: S) -> S {
     let v = helicopter(edgewise, climb);
     let through = climb + v;
     -v * through / (edgewise * edgewise + through * through + v * through)
 }
 
 /// The root that continues fast descent; that of hover where there is none.
-fn windmill(edgewise: f64, climb: f64) -> f64 {
-    let middle = -0.5 * climb;
-    if middle * libm::hypot(edgewise, middle) < 1.0 {
+fn windmill<S: Scalar>(edgewise: S, climb: S) -> S {
+    let middle = -0.5 * climb.value();
+    if middle * libm::hypot(edgewise.value(), middle) < 1.0 {
         return helicopter(edgewise, climb);
     }
     momentum(edgewise, climb, 0.0, middle)
 }
 
+/// v V' - 1.
+fn momentum_surplus<S: Scalar>(edgewise: S, climb: S, v: S) -> S {
+    v * edgewise.hypot(climb + v) - 1.0
+}
+
 /// A root between two velocities. Where the one that continues hover lies below the first, from 0.
-fn momentum(edgewise: f64, climb: f64, from: f64, to: f64) -> f64 {
-    let surplus = |v: f64| v * libm::hypot(edgewise, climb + v) - 1.0;
+fn momentum<S: Scalar>(edgewise: S, climb: S, from: f64, to: f64) -> S {
+    let surplus = |v: f64| momentum_surplus(edgewise.value(), climb.value(), v);
     let end = |at: f64| End {
         at,
         residual: surplus(at),
@@ -199,30 +220,31 @@ fn momentum(edgewise: f64, climb: f64, from: f64, to: f64) -> f64 {
     if low.residual > 0.0 {
         low = end(0.0);
     }
-    bracketed(surplus, low, end(to), 1e-13).unwrap_or(f64::NAN)
+    let found = bracketed(surplus, low, end(to), 1e-13).unwrap_or(f64::NAN);
+    S::at_root(found, |v| momentum_surplus(edgewise, climb, v))
 }
 
-struct Knot {
-    at: f64,
-    value: f64,
-    slope: f64,
+struct Knot<S> {
+    at: S,
+    value: S,
+    slope: S,
 }
 
 /// The cubic with the values and slopes of two knots, a below b.
-fn hermite(a: &Knot, b: &Knot, at: f64) -> f64 {
+fn hermite<S: Scalar>(a: &Knot<S>, b: &Knot<S>, at: S) -> S {
     let width = b.at - a.at;
-    if width <= 0.0 {
+    if width.value() <= 0.0 {
         return a.value;
     }
     let t = (at - a.at) / width;
-    let (s, u) = (t * t, 1.0 - t);
-    a.value * (1.0 + 2.0 * t) * u * u
-        + b.value * s * (3.0 - 2.0 * t)
+    let (s, u) = (t * t, -t + 1.0);
+    a.value * (t * 2.0 + 1.0) * u * u
+        + b.value * s * (-(t * 2.0) + 3.0)
         + width * (a.slope * t * u * u - b.slope * s * u)
 }
 
 /// The cubic b z + c z^2 + d z^3 with the value and slope of a knot and a value elsewhere.
-fn through_origin(knot: &Knot, other: f64, value: f64, at: f64) -> f64 {
+fn through_origin<S: Scalar>(knot: &Knot<S>, other: S, value: S, at: S) -> S {
     // p(z)/z is a parabola: known at two places, with its slope at the first.
     let (first, second) = (knot.value / knot.at, value / other);
     let rise = (knot.slope - first) / knot.at;

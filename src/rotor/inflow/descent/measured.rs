@@ -9,6 +9,8 @@
 //! Flow along the disc. Nothing is fitted to it: Glauert's resultant has v g(k) in place of V_c + v, which
 //! counts ever less the faster the flow.
 
+use crate::rotor::scalar::Scalar;
+
 /// k, g, dg/dk.
 const KNOTS: [(f64, f64, f64); 10] = [
     (-12.0, 11.0000, -1.0000),
@@ -24,23 +26,24 @@ const KNOTS: [(f64, f64, f64); 10] = [
 ];
 
 /// g and its slope at k <= 0.
-pub fn gain(ratio: f64) -> (f64, f64) {
-    if ratio.is_nan() || ratio <= KNOTS[0].0 {
-        return (-1.0 - ratio, -1.0);
+pub fn gain<S: Scalar>(ratio: S) -> (S, S) {
+    let place = ratio.value();
+    if place.is_nan() || place <= KNOTS[0].0 {
+        return (-ratio - 1.0, S::constant(-1.0));
     }
     let upper = KNOTS
-        .partition_point(|knot| knot.0 <= ratio)
+        .partition_point(|knot| knot.0 <= place)
         .min(KNOTS.len() - 1);
     let ((a, value_a, slope_a), (b, value_b, slope_b)) = (KNOTS[upper - 1], KNOTS[upper]);
     let width = b - a;
     let t = (ratio - a) / width;
-    let (s, u) = (t * t, 1.0 - t);
-    let value = value_a * (1.0 + 2.0 * t) * u * u
-        + value_b * s * (3.0 - 2.0 * t)
-        + width * (slope_a * t * u * u - slope_b * s * u);
-    let slope = 6.0 * t * u * (value_b - value_a) / width
-        + slope_a * u * (1.0 - 3.0 * t)
-        + slope_b * t * (3.0 * t - 2.0);
+    let (s, u) = (t * t, -t + 1.0);
+    let value = (t * 2.0 + 1.0) * value_a * u * u
+        + s * value_b * (-(t * 2.0) + 3.0)
+        + (t * slope_a * u * u - s * slope_b * u) * width;
+    let slope = t * 6.0 * u * (value_b - value_a) / width
+        + u * slope_a * (-(t * 3.0) + 1.0)
+        + t * slope_b * (t * 3.0 - 2.0);
     (value, slope)
 }
 

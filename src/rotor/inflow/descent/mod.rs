@@ -16,6 +16,8 @@
 mod johnson;
 mod measured;
 
+use crate::rotor::scalar::Scalar;
+
 /// How descent is modelled.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Descent {
@@ -30,37 +32,38 @@ pub enum Descent {
 
 /// The air through the disc.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct MassFlow {
+pub struct MassFlow<S = f64> {
     /// V', m/s.
-    pub speed: f64,
+    pub speed: S,
     /// d(v V')/dv, m/s: how the thrust changes with v (the mass flow of Peters & HaQuang 1988 for slopes).
-    pub slope: f64,
+    pub slope: S,
 }
 
 impl Descent {
     /// V' at a flow along the disc (>= 0), a climb and an induced velocity (positive down), m/s.
     ///
     /// A rotor that pulls down is one upside down: only the sign of V_c against v counts.
-    pub fn speed(self, edgewise: f64, climb: f64, induced: f64) -> f64 {
-        if climb * induced >= 0.0 {
-            return libm::hypot(edgewise, climb + induced);
+    pub fn speed<S: Scalar>(self, edgewise: S, climb: S, induced: S) -> S {
+        if (climb * induced).value() >= 0.0 {
+            return edgewise.hypot(climb + induced);
         }
         match self {
-            Self::Momentum => libm::hypot(edgewise, climb + induced),
+            Self::Momentum => edgewise.hypot(climb + induced),
             Self::Measured => {
                 let (gain, _) = measured::gain(climb / induced);
-                libm::hypot(edgewise, induced * gain)
+                edgewise.hypot(induced * gain)
             }
             Self::Johnson => johnson::speed(edgewise, -climb.abs(), induced.abs()),
         }
     }
 
-    pub fn mass_flow(self, edgewise: f64, climb: f64, induced: f64) -> MassFlow {
+    pub fn mass_flow<S: Scalar>(self, edgewise: S, climb: S, induced: S) -> MassFlow<S> {
         let speed = self.speed(edgewise, climb, induced);
-        if speed == 0.0 {
-            return MassFlow { speed, slope: 0.0 };
+        if speed.value() == 0.0 {
+            let slope = S::zero();
+            return MassFlow { speed, slope };
         }
-        let is_descent = climb * induced < 0.0;
+        let is_descent = (climb * induced).value() < 0.0;
         let slope = match self {
             Self::Measured if is_descent => {
                 let ratio = climb / induced;
@@ -68,9 +71,9 @@ impl Descent {
                 speed + induced * induced * gain * (gain - ratio * rise) / speed
             }
             Self::Johnson if is_descent => {
-                let step = 1e-5 * (induced.abs() + climb.abs() + edgewise);
-                let thrust = |v: f64| v * self.speed(edgewise, climb, v);
-                (thrust(induced + step) - thrust(induced - step)) / (2.0 * step)
+                let step = (induced.abs() + climb.abs() + edgewise) * 1e-5;
+                let thrust = |v: S| v * self.speed(edgewise, climb, v);
+                (thrust(induced + step) - thrust(induced - step)) / (step * 2.0)
             }
             _ => speed + induced * (climb + induced) / speed,
         };
@@ -78,7 +81,7 @@ impl Descent {
         // at least nothing away.
         MassFlow {
             speed,
-            slope: slope.max(0.0),
+            slope: slope.at_least(0.0),
         }
     }
 }
