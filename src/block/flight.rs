@@ -8,19 +8,26 @@ use super::{
 use crate::rotor::{
     Drive, Operation,
     air::{Air, STANDARD_GRAVITY},
+    scalar::Scalar,
 };
 use core::f64::consts::PI;
 use nalgebra::{Matrix3, Vector3};
 
 /// What the inputs ask of the rotor, and where its hub is turned to.
-pub struct Flight {
-    pub shaft: Shaft,
-    pub operation: Operation,
+pub struct Flight<S = f64> {
+    pub shaft: Shaft<S>,
+    pub operation: Operation<S>,
 }
 
 impl Flight {
     pub fn new(values: &Values) -> Result<Self, SetupError> {
-        let reals = &values.reals;
+        Self::with_reals(values, &values.reals)
+    }
+}
+
+impl<S: Scalar> Flight<S> {
+    /// With other numbers in place of the Real variables.
+    pub fn with_reals(values: &Values, reals: &[S]) -> Result<Self, SetupError> {
         let shaft = Shaft::new(reals);
         let operation = Operation {
             collective: reals[real::COLLECTIVE],
@@ -36,36 +43,37 @@ impl Flight {
                 DriveMode::Speed => Drive::Speed,
                 DriveMode::Torque => Drive::Torque {
                     torque: reals[real::DRIVE_TORQUE],
-                    inertia: reals[real::DRIVE_INERTIA],
+                    inertia: reals[real::DRIVE_INERTIA].value(),
                 },
             },
-            air: air(values)?,
+            air: air(values, reals)?,
         };
         Ok(Self { shaft, operation })
     }
 }
 
 /// The hub frame against the ground, and the hub's motion in the hub frame.
-pub struct Shaft {
-    pub hub_to_ground: Matrix3<f64>,
+pub struct Shaft<S = f64> {
+    pub hub_to_ground: Matrix3<S>,
     /// Velocity through the air, m/s.
-    pub airspeed: Vector3<f64>,
+    pub airspeed: Vector3<S>,
     /// rad/s.
-    pub angular_velocity: Vector3<f64>,
+    pub angular_velocity: Vector3<S>,
     /// m/s2.
-    pub gravity: Vector3<f64>,
+    pub gravity: Vector3<S>,
 }
 
-impl Shaft {
+impl<S: Scalar> Shaft<S> {
     /// The hub frame is the ground frame (x forward, y left, z up) turned by `tilt` about its y
     /// axis, so that positive tilt leans the shaft forward, and then by `lateralTilt` about the x
     /// axis that came of it, so that positive lateral tilt leans the shaft to the right.
-    pub fn new(reals: &[f64]) -> Self {
-        let turn = |place: usize| (libm::sin(reals[place]), libm::cos(reals[place]));
+    pub fn new(reals: &[S]) -> Self {
+        let (zero, one) = (S::zero(), S::one());
+        let turn = |place: usize| (reals[place].sin(), reals[place].cos());
         let (sin_y, cos_y) = turn(real::TILT);
         let (sin_x, cos_x) = turn(real::LATERAL_TILT);
-        let tilt = Matrix3::new(cos_y, 0.0, sin_y, 0.0, 1.0, 0.0, -sin_y, 0.0, cos_y);
-        let lateral = Matrix3::new(1.0, 0.0, 0.0, 0.0, cos_x, -sin_x, 0.0, sin_x, cos_x);
+        let tilt = Matrix3::new(cos_y, zero, sin_y, zero, one, zero, -sin_y, zero, cos_y);
+        let lateral = Matrix3::new(one, zero, zero, zero, cos_x, -sin_x, zero, sin_x, cos_x);
         let hub_to_ground = tilt * lateral;
 
         let vector = |x: usize, y: usize, z: usize| Vector3::new(reals[x], reals[y], reals[z]);
@@ -80,13 +88,12 @@ impl Shaft {
             hub_to_ground,
             airspeed: hub_to_ground.tr_mul(&(velocity - wind)),
             angular_velocity: hub_to_ground.tr_mul(&angular_velocity),
-            gravity: hub_to_ground.tr_mul(&Vector3::new(0.0, 0.0, -STANDARD_GRAVITY)),
+            gravity: hub_to_ground.tr_mul(&Vector3::new(zero, zero, S::constant(-STANDARD_GRAVITY))),
         }
     }
 }
 
-fn air(values: &Values) -> Result<Air, SetupError> {
-    let reals = &values.reals;
+fn air<S: Scalar>(values: &Values, reals: &[S]) -> Result<Air<S>, SetupError> {
     Ok(
         match setup::choice(values, integer::AIR__MODEL, AirModel::from_integer)? {
             AirModel::Isa => Air::standard(reals[real::ALTITUDE]),

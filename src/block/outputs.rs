@@ -1,7 +1,7 @@
 //! What the rotor answers, as values of the outputs.
 
 use super::{flight::Shaft, variables::real};
-use crate::rotor::{Drive, Operation, Performance, Rotor};
+use crate::rotor::{Drive, Operation, Performance, Rotor, scalar::Scalar};
 use core::f64::consts::{PI, SQRT_2};
 
 /// Number of stations along the blade: of each quantity so many variables stand in a row.
@@ -11,12 +11,12 @@ const STATIONS: usize = real::STATION_20__RADIUS - real::STATION_1__RADIUS + 1;
 const STANDSTILL: f64 = 1e-6;
 
 /// Writes the outputs among the Real variables.
-pub fn write_outputs(
-    reals: &mut [f64],
-    rotor: &Rotor,
-    performance: &Performance,
-    shaft: &Shaft,
-    operation: &Operation,
+pub fn write_outputs<S: Scalar>(
+    reals: &mut [S],
+    rotor: &Rotor<S>,
+    performance: &Performance<S>,
+    shaft: &Shaft<S>,
+    operation: &Operation<S>,
 ) {
     let Performance {
         force: hub_force,
@@ -49,11 +49,11 @@ pub fn write_outputs(
     let radius = geometry.radius;
     let tip_speed = operation.speed.abs() * radius;
     let reference_force = air.density * PI * radius * radius * tip_speed * tip_speed;
-    let per = |quantity: f64, reference: f64| {
-        if tip_speed > STANDSTILL {
+    let per = |quantity: S, reference: S| {
+        if tip_speed.value() > STANDSTILL {
             quantity / reference
         } else {
-            0.0
+            S::zero()
         }
     };
     let thrust_coefficient = per(thrust, reference_force);
@@ -64,16 +64,16 @@ pub fn write_outputs(
     reals[real::THRUST_COEFFICIENT] = thrust_coefficient;
     reals[real::TORQUE_COEFFICIENT] = torque_coefficient;
     // CP = CQ in these units, but for a rotor that turns backwards.
-    reals[real::POWER_COEFFICIENT] = torque_coefficient * operation.speed.signum();
-    reals[real::FIGURE_OF_MERIT] = if thrust_coefficient > 0.0 && torque_coefficient > 0.0 {
-        thrust_coefficient * libm::sqrt(thrust_coefficient) / (SQRT_2 * torque_coefficient)
+    reals[real::POWER_COEFFICIENT] = torque_coefficient * operation.speed.value().signum();
+    reals[real::FIGURE_OF_MERIT] = if thrust_coefficient.value() > 0.0 && torque_coefficient.value() > 0.0 {
+        thrust_coefficient * thrust_coefficient.sqrt() / (torque_coefficient * SQRT_2)
     } else {
-        0.0
+        S::zero()
     };
     reals[real::INDUCED_VELOCITY] = performance.induced_velocity;
     let airspeed = &operation.airspeed;
     reals[real::INFLOW_RATIO] = per(airspeed.z + performance.induced_velocity, tip_speed);
-    reals[real::ADVANCE_RATIO] = per(libm::hypot(airspeed.x, airspeed.y), tip_speed);
+    reals[real::ADVANCE_RATIO] = per(airspeed.x.hypot(airspeed.y), tip_speed);
     reals[real::ROTOR_SPEED] = match operation.drive {
         Drive::Speed => reals[real::RPM],
         Drive::Torque { .. } => operation.speed * 30.0 / PI,
@@ -81,15 +81,15 @@ pub fn write_outputs(
     reals[real::CONING] = performance.tip_path.coning;
     reals[real::LONGITUDINAL_FLAPPING] = performance.tip_path.longitudinal;
     reals[real::LATERAL_FLAPPING] = performance.tip_path.lateral;
-    reals[real::STALLED_RADIUS] = performance.stalled_radius;
-    reals[real::STALLED_FRACTION] = performance.stalled_fraction;
+    reals[real::STALLED_RADIUS] = S::constant(performance.stalled_radius);
+    reals[real::STALLED_FRACTION] = S::constant(performance.stalled_fraction);
     reals[real::TIP_MACH] = tip_speed / air.speed_of_sound;
     reals[real::TIP_REYNOLDS] = air.density * tip_speed * geometry.tip_chord / air.viscosity;
     reals[real::AIR_DENSITY] = air.density;
 }
 
 /// Writes what goes on along the blade, at the middles of equal parts from cutout to tip.
-pub fn write_stations(reals: &mut [f64], rotor: &Rotor) {
+pub fn write_stations<S: Scalar>(reals: &mut [S], rotor: &Rotor<S>) {
     let geometry = rotor.geometry();
     let (cutout, blades) = (geometry.cutout(), f64::from(geometry.blades));
     for i in 0..STATIONS {
@@ -97,7 +97,7 @@ pub fn write_stations(reals: &mut [f64], rotor: &Rotor) {
         let radius = cutout + part * (1.0 - cutout);
         let load = rotor.load_at(radius);
         for (first, value) in [
-            (real::STATION_1__RADIUS, radius),
+            (real::STATION_1__RADIUS, S::constant(radius)),
             (real::STATION_1__ANGLE_OF_ATTACK, load.angle_of_attack),
             (real::STATION_1__LIFT_COEFFICIENT, load.lift_coefficient),
             (real::STATION_1__DRAG_COEFFICIENT, load.drag_coefficient),

@@ -142,7 +142,7 @@ pub struct Response<S = f64> {
 }
 
 /// The cone of the blades: beta = coning - longitudinal cos psi - lateral sin psi, psi from the tail, rad.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct TipPath<S = f64> {
     pub coning: S,
     pub longitudinal: S,
