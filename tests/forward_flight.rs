@@ -10,13 +10,13 @@ use helicopter_rotor::{
         variables::{INTEGERS, integer, real},
     },
     rotor::{
-        Blades, Drive, Models, Operation, Performance, Rotor, TipPath,
+        Blades, Drive, Models, Operation, Performance, Rotor,
         air::Air,
         airfoil::{Airfoil, Lift, SectionModel},
         compressibility::Compressibility,
         flapping::Hinge,
         geometry::{Geometry, Rotation},
-        inflow::{Descent, Inflow, Skew, descent::FlowState, ground::GroundEffect},
+        inflow::{Descent, Inflow, Skew, ground::GroundEffect},
         tip_loss::TipLoss,
     },
 };
@@ -452,16 +452,9 @@ fn a_disc_at_rest_in_still_air_answers_nothing() {
         Inflow::AnnulusClosedForm,
         Inflow::Disc(Skew::Drees),
     ] {
-        let nothing = Performance {
-            force: Vector3::zeros(),
-            moment: Vector3::zeros(),
-            torque: 0.0,
-            induced_velocity: 0.0,
-            stalled_radius: 0.0,
-            stalled_fraction: 0.0,
-            tip_path: TipPath::default(),
-            flow_state: FlowState::Normal,
-        };
-        assert_eq!(ideal(inflow).steady(&operation).unwrap(), nothing);
+        assert_eq!(
+            ideal(inflow).steady(&operation).unwrap(),
+            Performance::default()
+        );
     }
 }

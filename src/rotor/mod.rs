@@ -134,6 +134,27 @@ pub struct Performance<S = f64> {
     pub flow_state: FlowState,
 }
 
+impl<S: Scalar> Default for Performance<S> {
+    /// Nothing at all.
+    fn default() -> Self {
+        let none = S::zero();
+        Self {
+            force: Vector3::zeros(),
+            moment: Vector3::zeros(),
+            torque: none,
+            induced_velocity: none,
+            stalled_radius: 0.0,
+            stalled_fraction: 0.0,
+            tip_path: TipPath {
+                coning: none,
+                longitudinal: none,
+                lateral: none,
+            },
+            flow_state: FlowState::default(),
+        }
+    }
+}
+
 /// What the rotor answers, and how fast its states change, per second.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response<S = f64> {
