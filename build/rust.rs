@@ -56,6 +56,22 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
         }
         writeln!(out, "}}")?;
     }
+    writeln!(out, "/// The continuous states, in their order.")?;
+    writeln!(
+        out,
+        "pub static STATES: [ContinuousState; {}] = [",
+        table.states().count()
+    )?;
+    for (state, derivative) in table.states().zip(table.derivatives()) {
+        writeln!(
+            out,
+            "    ContinuousState {{ place: {}, derivative: {}, nominal: {:?} }},",
+            table.value_reference(state),
+            table.value_reference(derivative),
+            state.nominal.unwrap_or(1.0)
+        )?;
+    }
+    writeln!(out, "];")?;
     for enumeration in &table.enumerations {
         writeln!(out, "/// {}", enumeration.description)?;
         writeln!(out, "#[derive(Clone, Copy, Debug, PartialEq, Eq)]")?;
@@ -146,15 +162,16 @@ fn row(table: &Table, v: &Variable) -> String {
     )
 }
 
-/// `geometry.radius` -> `GEOMETRY__RADIUS`, `airDensity` -> `AIR_DENSITY`, `force[1]` -> `FORCE_1`.
+/// `geometry.radius` -> `GEOMETRY__RADIUS`, `airDensity` -> `AIR_DENSITY`, `force[1]` -> `FORCE_1`,
+/// `der(azimuth)` -> `DER_AZIMUTH`.
 /// The two underscores keep `air.density` and `airDensity` apart.
 fn constant_name(name: &str) -> String {
     let mut constant = String::new();
     for c in name.chars() {
         match c {
             '.' => constant.push_str("__"),
-            '[' => constant.push('_'),
-            ']' => {}
+            '[' | '(' => constant.push('_'),
+            ']' | ')' => {}
             c if c.is_uppercase() => {
                 constant.push('_');
                 constant.push(c);

@@ -71,8 +71,14 @@ pub struct Variable {
     pub max: Option<f64>,
     pub depends_on: Option<Vec<String>>,
     pub parameter_groups: Option<Vec<String>>,
+    pub nominal: Option<f64>,
+    pub starts_from: Option<Vec<String>>,
+    pub rate_depends_on: Option<Vec<String>>,
     pub count: Option<usize>,
     pub description: String,
+    /// Name of the state whose derivative this is; such variables are not written but made.
+    #[serde(skip)]
+    pub derivative_of: Option<String>,
 }
 
 fn real() -> String {
@@ -86,12 +92,13 @@ struct UnitFile {
 }
 
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
 pub struct Unit {
     pub name: String,
     #[serde(default)]
     pub base: BTreeMap<String, i32>,
     pub factor: Option<f64>,
+    pub per_second: Option<String>,
     #[serde(default)]
     pub display: Vec<DisplayUnit>,
 }
@@ -125,12 +132,55 @@ impl Table {
             .iter()
             .flat_map(Variable::elements)
             .collect();
+        let derivatives = table.states().map(|state| table.derivative(state));
+        let derivatives = derivatives
+            .collect::<Result<Vec<_>, _>>()
+            .map_err(|e| format!("{variables}: {e}"))?;
+        table.variables.extend(derivatives);
         for variable in &table.variables {
             table
                 .check(variable)
                 .map_err(|e| format!("{variables}: {}: {e}", variable.name))?;
         }
         Ok(table)
+    }
+
+    /// The continuous states, in their order.
+    pub fn states(&self) -> impl Iterator<Item = &Variable> {
+        self.variables.iter().filter(|v| v.nominal.is_some())
+    }
+
+    /// The derivatives of the states, in their order.
+    pub fn derivatives(&self) -> impl Iterator<Item = &Variable> {
+        self.variables.iter().filter(|v| v.derivative_of.is_some())
+    }
+
+    pub fn inputs(&self) -> impl Iterator<Item = &Variable> {
+        self.variables.iter().filter(|v| v.causality == "input")
+    }
+
+    /// The variable that holds the derivative of a state.
+    fn derivative(&self, state: &Variable) -> Result<Variable, String> {
+        let unit = self.units.iter().find(|u| Some(&u.name) == state.unit.as_ref());
+        let unit = unit.and_then(|u| u.per_second.clone()).ok_or(format!(
+            "{}: units.toml names no unit perSecond for the derivative of a state in {:?}",
+            state.name, state.unit
+        ))?;
+        Ok(Variable {
+            name: format!("der({})", state.name),
+            causality: "local".into(),
+            unit: Some(unit),
+            display_unit: None,
+            depends_on: state.rate_depends_on.clone(),
+            // What it does not have by way of its states, it has from all parameters or from none.
+            parameter_groups: state.rate_depends_on.as_ref().map(|_| Vec::new()),
+            nominal: None,
+            starts_from: None,
+            rate_depends_on: None,
+            description: format!("Derivative of {} in time", state.name),
+            derivative_of: Some(state.name.clone()),
+            ..state.clone()
+        })
     }
 
     pub fn enumeration(&self, name: &str) -> Option<&Enumeration> {
@@ -202,16 +252,28 @@ impl Table {
                 return Err(format!("unit {} has no display unit {d}", unit.name));
             }
         }
-        for name in v.depends_on.iter().flatten() {
-            let inputs = || self.variables.iter().filter(|i| i.causality == "input");
-            if v.causality != "output" || !inputs().any(|i| &i.name == name) {
-                return Err(format!(
-                    "depends on {name}, which only an output may, and on inputs"
-                ));
-            }
+        let is_state = v.nominal.is_some();
+        let is_unknown = v.causality == "output" || is_state || v.derivative_of.is_some();
+        let mut named = v.depends_on.iter().chain(&v.rate_depends_on).flatten();
+        let is_known = |name: &String| self.inputs().chain(self.states()).any(|k| &k.name == name);
+        if let Some(name) = named.find(|name| !is_known(name)) {
+            return Err(format!("depends on {name}, which is no input and no state"));
+        }
+        let mut named = v.starts_from.iter().flatten();
+        if let Some(name) = named.find(|name| !self.inputs().any(|i| &i.name == *name)) {
+            return Err(format!("starts from {name}, which is no input"));
+        }
+        if !is_unknown && (v.depends_on.is_some() || v.parameter_groups.is_some()) {
+            return Err("only outputs and states depend on anything".into());
+        }
+        if !is_state && (v.starts_from.is_some() || v.rate_depends_on.is_some()) {
+            return Err("only a state, which has a nominal value, has a start and a rate".into());
+        }
+        if v.nominal.is_some_and(|n| n <= 0.0) || (is_state && v.variability() != "continuous") {
+            return Err("a state is a continuous Real with a positive nominal value".into());
         }
         for group in v.parameter_groups.iter().flatten() {
-            if v.causality != "output" || self.parameters(Some(group)).next().is_none() {
+            if self.parameters(Some(group)).next().is_none() {
                 return Err(format!(
                     "depends on parameters of the group {group}, which has none"
                 ));
@@ -244,9 +306,17 @@ impl Variable {
         let Some(count) = self.count else {
             return vec![self.clone()];
         };
-        let element = |i: usize| Self {
-            name: self.name.replace('#', &i.to_string()),
-            ..self.clone()
+        let element = |i: usize| {
+            let numbered = |name: &String| name.replace('#', &i.to_string());
+            let list = |names: &Option<Vec<String>>| {
+                names.as_ref().map(|n| n.iter().map(numbered).collect())
+            };
+            Self {
+                name: numbered(&self.name),
+                depends_on: list(&self.depends_on),
+                rate_depends_on: list(&self.rate_depends_on),
+                ..self.clone()
+            }
         };
         (1..=count).map(element).collect()
     }

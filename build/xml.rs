@@ -6,7 +6,7 @@ use quick_xml::{
     events::{BytesDecl, Event},
 };
 use sha2::{Digest, Sha256};
-use std::io;
+use std::{collections::BTreeSet, io};
 
 /// GUID: the SHA-256 of the description with an empty GUID, in the usual 8-4-4-4-12 digits. The
 /// same content gives the same GUID on every platform.
@@ -41,8 +41,10 @@ pub fn model_description(table: &Table, version: &str, guid: &str) -> io::Result
                 format!("helicopter-rotor {version}").as_str(),
             ),
             ("variableNamingConvention", "structured"),
+            ("numberOfEventIndicators", "0"),
         ])
         .write_inner_content(|xml| {
+            model_exchange(xml, table)?;
             co_simulation(xml, table)?;
             units(xml, table)?;
             types(xml, table)?;
@@ -62,19 +64,35 @@ pub fn model_description(table: &Table, version: &str, guid: &str) -> io::Result
     Ok(bytes)
 }
 
+fn model_exchange(xml: &mut Xml, table: &Table) -> io::Result<()> {
+    xml.create_element("ModelExchange")
+        .with_attributes([
+            ("modelIdentifier", table.model.model_name.as_str()),
+            ("needsExecutionTool", "false"),
+            ("completedIntegratorStepNotNeeded", "false"),
+            ("canBeInstantiatedOnlyOncePerProcess", "false"),
+            ("canNotUseMemoryManagementFunctions", "true"),
+            ("canGetAndSetFMUstate", "true"),
+            ("canSerializeFMUstate", "true"),
+            ("providesDirectionalDerivative", "false"),
+        ])
+        .write_empty()?;
+    Ok(())
+}
+
 fn co_simulation(xml: &mut Xml, table: &Table) -> io::Result<()> {
     xml.create_element("CoSimulation")
         .with_attributes([
             ("modelIdentifier", table.model.model_name.as_str()),
             ("needsExecutionTool", "false"),
             ("canHandleVariableCommunicationStepSize", "true"),
-            ("canInterpolateInputs", "false"),
+            ("canInterpolateInputs", "true"),
             ("maxOutputDerivativeOrder", "0"),
             ("canRunAsynchronuously", "false"),
             ("canBeInstantiatedOnlyOncePerProcess", "false"),
             ("canNotUseMemoryManagementFunctions", "true"),
-            ("canGetAndSetFMUstate", "false"),
-            ("canSerializeFMUstate", "false"),
+            ("canGetAndSetFMUstate", "true"),
+            ("canSerializeFMUstate", "true"),
             ("providesDirectionalDerivative", "false"),
         ])
         .write_empty()?;
@@ -197,7 +215,7 @@ fn variable(xml: &mut Xml, table: &Table, v: &Variable) -> io::Result<()> {
                 inner = inner.with_attribute((name, value.as_str()));
             }
         }
-        for (name, value) in [("min", v.min), ("max", v.max)] {
+        for (name, value) in [("min", v.min), ("max", v.max), ("nominal", v.nominal)] {
             if let Some(value) = value {
                 let text = match v.base() {
                     Base::Integer => (value as i32).to_string(),
@@ -205,6 +223,10 @@ fn variable(xml: &mut Xml, table: &Table, v: &Variable) -> io::Result<()> {
                 };
                 inner = inner.with_attribute((name, text.as_str()));
             }
+        }
+        if let Some(state) = &v.derivative_of {
+            let index = table.index(state).unwrap_or_default().to_string();
+            inner = inner.with_attribute(("derivative", index.as_str()));
         }
         if let Some(start) = start_text(table, v) {
             inner = inner.with_attribute(("start", start.as_str()));
@@ -228,55 +250,87 @@ fn start_text(table: &Table, v: &Variable) -> Option<String> {
     })
 }
 
-/// Outputs with the inputs on which they depend, and initial unknowns with the parameters as well.
+/// Outputs and derivatives with the inputs and states on which they depend, and all of these and the states
+/// as initial unknowns with the inputs and parameters on which they depend at the start.
 fn model_structure(xml: &mut Xml, table: &Table) -> io::Result<()> {
-    let outputs = || table.variables.iter().filter(|v| v.causality == "output");
+    let is_output = |v: &&Variable| v.causality == "output";
+    let is_initial = |v: &&Variable| {
+        v.causality == "output" || v.nominal.is_some() || v.derivative_of.is_some()
+    };
+    let variables = || table.variables.iter();
     xml.create_element("ModelStructure")
         .write_inner_content(|xml| {
             xml.create_element("Outputs").write_inner_content(|xml| {
-                outputs().try_for_each(|v| unknown(xml, table, v, inputs(table, v)))
+                let mut outputs = variables().filter(is_output);
+                outputs.try_for_each(|v| unknown(xml, table, v, &knowns(table, v)))
             })?;
+            xml.create_element("Derivatives")
+                .write_inner_content(|xml| {
+                    let mut derivatives = table.derivatives();
+                    derivatives.try_for_each(|v| unknown(xml, table, v, &knowns(table, v)))
+                })?;
             xml.create_element("InitialUnknowns")
                 .write_inner_content(|xml| {
-                    outputs().try_for_each(|v| {
-                        let mut known = inputs(table, v);
-                        known.extend(parameters(table, v));
-                        unknown(xml, table, v, known)
-                    })
+                    let mut initial = variables().filter(is_initial);
+                    initial.try_for_each(|v| unknown(xml, table, v, &initial_knowns(table, v)))
                 })?;
             Ok(())
         })?;
     Ok(())
 }
 
-/// Indices of the inputs on which an output depends.
-fn inputs(table: &Table, v: &Variable) -> Vec<usize> {
-    let all = || table.variables.iter().filter(|i| i.causality == "input");
-    let named = |i: &&Variable| {
-        v.depends_on
-            .as_ref()
-            .is_none_or(|names| names.contains(&i.name))
-    };
-    all()
-        .filter(named)
-        .filter_map(|i| table.index(&i.name))
+/// The inputs and states on which an output or a derivative depends.
+fn knowns<'a>(table: &'a Table, v: &Variable) -> Vec<&'a Variable> {
+    let all = table.inputs().chain(table.states());
+    all.filter(|known| names(&v.depends_on, known)).collect()
+}
+
+/// The inputs and parameters on which a variable depends at the start: its own, and those of the states on
+/// which it depends.
+fn initial_knowns<'a>(table: &'a Table, v: &Variable) -> Vec<&'a Variable> {
+    if v.nominal.is_some() {
+        return from_start(table, v);
+    }
+    let of_groups = parameters(table, &v.parameter_groups);
+    let mut found: Vec<&Variable> = of_groups.collect();
+    for known in knowns(table, v) {
+        if known.nominal.is_some() {
+            found.extend(from_start(table, known));
+        } else {
+            found.push(known);
+        }
+    }
+    found
+}
+
+/// The inputs and parameters on which a state depends at the start.
+fn from_start<'a>(table: &'a Table, state: &Variable) -> Vec<&'a Variable> {
+    let inputs = table.inputs().filter(|i| names(&state.starts_from, i));
+    inputs
+        .chain(parameters(table, &state.parameter_groups))
         .collect()
 }
 
-/// Indices of the parameters on which an output depends.
-fn parameters(table: &Table, v: &Variable) -> Vec<usize> {
-    let indices = |group| table.parameters(group).filter_map(|p| table.index(&p.name));
-    match &v.parameter_groups {
-        None => indices(None).collect(),
-        Some(groups) => groups
-            .iter()
-            .flat_map(|group| indices(Some(group)))
-            .collect(),
-    }
+/// Whether a list names a variable; one that is absent names all.
+fn names(list: &Option<Vec<String>>, variable: &Variable) -> bool {
+    list.as_ref().is_none_or(|l| l.contains(&variable.name))
 }
 
-fn unknown(xml: &mut Xml, table: &Table, v: &Variable, known: Vec<usize>) -> io::Result<()> {
+/// The parameters of a list of groups, or all if it is absent.
+fn parameters<'a>(
+    table: &'a Table,
+    groups: &Option<Vec<String>>,
+) -> impl Iterator<Item = &'a Variable> {
+    table.parameters(None).filter(move |p| {
+        let own = p.name.split('.').next().unwrap_or_default();
+        groups.as_ref().is_none_or(|g| g.iter().any(|g| g == own))
+    })
+}
+
+/// The indices of what an unknown depends on stand in ascending order, each once.
+fn unknown(xml: &mut Xml, table: &Table, v: &Variable, known: &[&Variable]) -> io::Result<()> {
     let index = table.index(&v.name).unwrap_or_default().to_string();
+    let known: BTreeSet<usize> = known.iter().filter_map(|k| table.index(&k.name)).collect();
     let known: Vec<String> = known.iter().map(usize::to_string).collect();
     xml.create_element("Unknown")
         .with_attribute(("index", index.as_str()))

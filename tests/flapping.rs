@@ -125,7 +125,7 @@ fn free_motion(rotor: &mut Rotor, operation: &Operation, amplitude: f64, count: 
     let mut state = opposed(amplitude);
     let mut angles = vec![amplitude];
     for _ in 0..count {
-        state = rotor.step(operation, &state, STEP / SPEED).unwrap();
+        state = rotor.step(|_| *operation, &state, STEP / SPEED).unwrap();
         angles.push(state.flaps[0].angle);
     }
     angles
@@ -372,7 +372,7 @@ fn a_steady_start_in_forward_flight_repeats_itself() {
         let (start, _) = steady(&mut rotor, &operation);
         let mut state = start;
         for _ in 0..360 {
-            state = rotor.step(&operation, &state, STEP / SPEED).unwrap();
+            state = rotor.step(|_| operation, &state, STEP / SPEED).unwrap();
         }
         close(state.azimuth, 2.0 * PI, 1e-12, "a whole turn");
         let mut expected = start;
@@ -382,7 +382,7 @@ fn a_steady_start_in_forward_flight_repeats_itself() {
         // The next blade does a quarter turn later what this one does.
         let mut state = start;
         for _ in 0..90 {
-            state = rotor.step(&operation, &state, STEP / SPEED).unwrap();
+            state = rotor.step(|_| operation, &state, STEP / SPEED).unwrap();
         }
         close(
             state.flaps[0].angle,
@@ -528,7 +528,7 @@ fn blades_of_a_stopped_rotor_fall_and_swing() {
     for _ in 0..2000 {
         let steps = rotor.steps(&operation, &state, 0.005);
         for _ in 0..steps as u32 {
-            state = rotor.step(&operation, &state, 0.005 / steps).unwrap();
+            state = rotor.step(|_| operation, &state, 0.005 / steps).unwrap();
         }
         lowest = lowest.min(state.flaps[0].angle);
     }

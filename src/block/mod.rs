@@ -1,6 +1,8 @@
 //! The rotor as a block of named variables: which variable feeds which quantity of the physics.
 //! Neutral of the FMI version.
 
+mod bytes;
+mod course;
 mod coverage;
 mod flight;
 mod integrate;
@@ -8,21 +10,27 @@ mod location;
 mod outputs;
 mod setup;
 mod shown;
+mod snapshot;
+mod states;
 mod values;
 pub mod variables;
 
 pub use location::path_from_uri;
 pub use setup::SetupError;
+pub use bytes::{Damage, Reader};
+pub use snapshot::Snapshot;
 pub use values::{Stage, ValueError, Values};
 
-use crate::rotor::{self, Response, Rotor, SolveError, Start};
+use crate::rotor::{self, Operation, Response, Rotor, SolveError, Start};
+use course::Course;
 use coverage::Coverage;
 use flight::Flight;
-use integrate::Memory;
+use integrate::{Inputs, Memory};
 use outputs::{write_outputs, write_stations};
+use states::{read_states, write_derivatives, write_states};
 use std::path::PathBuf;
 use thiserror::Error;
-use variables::{Causality, FlowState, Initialization, REALS, integer, real};
+use variables::{Causality, FlowState, Initialization, REALS, STATES, integer, is_state, real};
 
 /// Why the outputs could not be computed; they keep their last values.
 #[derive(Debug, Error, Clone, PartialEq)]
@@ -37,6 +45,23 @@ pub enum BlockError {
         value: f64,
         inputs: String,
     },
+    #[error(
+        "{name} would be {value} at the end of the step by its derivative, but goes from {min} to {max}; set another derivative or a shorter step"
+    )]
+    LeavesRange {
+        name: &'static str,
+        value: String,
+        min: String,
+        max: String,
+    },
+}
+
+/// How much of what is computed belongs to the present inputs, parameters and states.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Fresh {
+    Nothing,
+    Derivatives,
+    All,
 }
 
 /// One rotor with the values of all of its variables.
@@ -47,10 +72,13 @@ pub struct RotorBlock {
     resources: PathBuf,
     /// None until it is needed, and again when a parameter that shapes it has changed.
     rotor: Option<Rotor>,
-    /// The states of the rotor, as of the last step.
+    /// The states of the rotor, which stand among the values as well, and where they come from.
     memory: Memory,
-    /// Whether the outputs belong to the present inputs and parameters.
-    current: bool,
+    /// How the inputs move in the next step.
+    course: Course,
+    fresh: Fresh,
+    /// The flow as last computed; the variable keeps its value between events.
+    flow_state: i32,
     /// What is worth a line in the log since the last call of `take_notes`.
     notes: Vec<String>,
     coverage: Coverage,
@@ -59,13 +87,16 @@ pub struct RotorBlock {
 impl RotorBlock {
     /// A rotor with default values; `resources` is the folder of the FMU's resources.
     pub fn new(resources: PathBuf) -> Self {
+        let values = Values::default();
         Self {
-            values: Values::default(),
+            flow_state: values.integers[integer::FLOW_STATE],
+            values,
             stage: Stage::Configuring,
             resources,
             rotor: None,
             memory: Memory::default(),
-            current: false,
+            course: Course::default(),
+            fresh: Fresh::Nothing,
             notes: Vec::new(),
             coverage: Coverage::default(),
         }
@@ -89,7 +120,16 @@ impl RotorBlock {
         };
         let shape_changes = self.stage == Stage::Configuring && references.iter().any(shapes);
         self.invalidate(shape_changes);
+        if references.iter().any(|reference| is_state(*reference)) {
+            self.memory = Memory::starting(read_states(&self.values.reals));
+        }
         Ok(())
+    }
+
+    /// Sets the derivatives in time of inputs, per second: all, or none if one is refused. They hold for the
+    /// next step, in which the inputs move linearly from their values; after it the inputs stand at its end.
+    pub fn set_input_slopes(&mut self, references: &[u32], slopes: &[f64]) -> Result<(), ValueError> {
+        Values::set_slopes(references, slopes, &mut self.course.slopes)
     }
 
     /// Sets Integer and Enumeration variables: all, or none if one is refused.
@@ -114,7 +154,7 @@ impl RotorBlock {
     }
 
     fn invalidate(&mut self, shape_changes: bool) {
-        self.current = false;
+        self.fresh = Fresh::Nothing;
         if shape_changes {
             self.rotor = None;
         }
@@ -130,7 +170,7 @@ impl RotorBlock {
     /// Lets go of the rotor, of which a panic may have left a part undone; the next call makes it anew.
     pub fn forget_rotor(&mut self) {
         self.rotor = None;
-        self.current = false;
+        self.fresh = Fresh::Nothing;
     }
 
     /// What was read from which file, and whether the flow went beyond what was read, since the last
@@ -142,12 +182,12 @@ impl RotorBlock {
     /// Makes the outputs those of the present inputs, parameters and states. While the block is being
     /// configured, the states are those of the start.
     pub fn update(&mut self) -> Result<(), BlockError> {
-        if self.current {
+        if self.fresh == Fresh::All {
             return Ok(());
         }
         let flight = Flight::new(&self.values)?;
         let memory = match self.stage {
-            Stage::Running => self.memory,
+            Stage::Running | Stage::Integrating => self.memory,
             Stage::Configuring => {
                 let values = &self.values;
                 let start = setup::choice(
@@ -168,15 +208,18 @@ impl RotorBlock {
         self.publish(&flight, memory)
     }
 
-    /// Moves on by `duration` s (> 0) with the present inputs, which are constant during it. If that
-    /// fails, the states and outputs keep their values.
+    /// Moves on by `duration` s (> 0). During it the inputs are constant, or move by the derivatives that were
+    /// set. If that fails, states, inputs and outputs keep their values.
     pub fn step(&mut self, duration: f64) -> Result<(), BlockError> {
+        if self.course.is_moving() {
+            return self.step_with_moving_inputs(duration);
+        }
         let flight = Flight::new(&self.values)?;
         let azimuth_step = self.values.reals[real::NUMERICS__AZIMUTH_STEP];
-        let (memory, is_current) = (self.memory, self.current);
+        let (memory, is_current) = (self.memory, self.fresh == Fresh::All);
         let rotor = self.rotor()?;
-        let advanced =
-            integrate::advance(rotor, &flight.operation, &memory, duration, azimuth_step);
+        let inputs = Inputs::<fn(f64) -> Operation>::Constant(flight.operation);
+        let advanced = integrate::advance(rotor, inputs, &memory, duration, azimuth_step);
         if is_current
             && !rotor.has_memory(&flight.operation)
             && !rotor.shows_blades(&flight.operation, &memory.state)
@@ -184,12 +227,119 @@ impl RotorBlock {
         {
             // A disc that nothing changes answers the same.
             self.memory = advanced;
-            self.values.reals[real::AZIMUTH] = advanced.state.azimuth;
+            write_states(&mut self.values.reals, &advanced.state);
             return Ok(());
         }
         let memory = advanced.map_err(|e| self.unsolved(e))?;
         self.publish(&flight, memory)
     }
+
+    fn step_with_moving_inputs(&mut self, duration: f64) -> Result<(), BlockError> {
+        let flight = Flight::new(&self.values)?;
+        let azimuth_step = self.values.reals[real::NUMERICS__AZIMUTH_STEP];
+        self.course.begin(&self.values, duration)?;
+        let memory = self.memory;
+        self.rotor()?;
+        let (course, values) = (&mut self.course, &self.values);
+        // The choices among the values, which alone can be wrong, are those of the beginning.
+        let operation_at = |offset| {
+            Flight::new(course.at(values, offset)).map_or(flight.operation, |f| f.operation)
+        };
+        let inputs = Inputs::Moving(operation_at);
+        let advanced = self
+            .rotor
+            .as_mut()
+            .map(|rotor| integrate::advance(rotor, inputs, &memory, duration, azimuth_step));
+        let memory = match advanced {
+            Some(Ok(advanced)) => advanced,
+            Some(Err(error)) => return Err(self.unsolved(error)),
+            None => memory, // `self.rotor` has made one
+        };
+        let start = self.values.reals;
+        self.values.reals = self.course.at(&self.values, duration).reals;
+        let published = Flight::new(&self.values)
+            .map_err(BlockError::from)
+            .and_then(|flight| self.publish(&flight, memory));
+        match published {
+            Ok(()) => self.course = Course::default(),
+            Err(_) => self.values.reals = start,
+        }
+        published
+    }
+
+    // ------------------------------------------------------------ integration by the importer
+
+    /// The continuous states in the order of `STATES`; those of the start while the block is being configured.
+    pub fn states(&mut self, out: &mut [f64]) -> Result<(), BlockError> {
+        if self.stage == Stage::Configuring {
+            self.update()?;
+        }
+        for (slot, row) in out.iter_mut().zip(&STATES) {
+            *slot = self.values.reals[row.place];
+        }
+        Ok(())
+    }
+
+    /// Sets the continuous states, all or none.
+    pub fn set_states(&mut self, states: &[f64]) -> Result<(), ValueError> {
+        if states.len() != STATES.len() {
+            let given = states.len();
+            return Err(ValueError::StateCount { given });
+        }
+        let references = STATES.map(|row| row.place as u32);
+        self.set_reals(&references, states)
+    }
+
+    /// The derivatives of the continuous states in time, per second, for the present inputs and states.
+    pub fn derivatives(&mut self, out: &mut [f64]) -> Result<(), BlockError> {
+        self.update_derivatives()?;
+        for (slot, row) in out.iter_mut().zip(&STATES) {
+            *slot = self.values.reals[row.derivative];
+        }
+        Ok(())
+    }
+
+    fn update_derivatives(&mut self) -> Result<(), BlockError> {
+        if self.fresh >= Fresh::Derivatives {
+            return Ok(());
+        }
+        if self.stage == Stage::Configuring {
+            return self.update();
+        }
+        let operation = Flight::new(&self.values)?.operation;
+        let state = self.memory.state;
+        let rates = self.rotor()?.rates(&operation, &state);
+        let rates = rates.map_err(|e| self.unsolved(e))?;
+        let mut reals = self.values.reals;
+        write_derivatives(&mut reals, &rates);
+        self.check_finite(&reals)?;
+        self.values.reals = reals;
+        self.fresh = Fresh::Derivatives;
+        Ok(())
+    }
+
+    /// From here on the importer integrates: it sets the states, and what is discrete keeps its values.
+    pub fn begin_integration(&mut self) -> Result<(), BlockError> {
+        self.update()?;
+        self.stage = Stage::Integrating;
+        Ok(())
+    }
+
+    /// Whether a discrete variable would have another value than it has, so that an event is due.
+    pub fn has_event(&mut self) -> Result<bool, BlockError> {
+        self.update()?;
+        Ok(self.values.integers[integer::FLOW_STATE] != self.flow_state)
+    }
+
+    /// Ends an integration by the importer: discrete variables follow, and tunable parameters may be set.
+    pub fn begin_event(&mut self) {
+        self.stage = Stage::Running;
+        if self.fresh == Fresh::All {
+            self.values.integers[integer::FLOW_STATE] = self.flow_state;
+        }
+    }
+
+    // ------------------------------------------------------------ computation
 
     /// The rotor of the present parameters.
     fn rotor(&mut self) -> Result<&mut Rotor, BlockError> {
@@ -214,24 +364,16 @@ impl RotorBlock {
         let mut reals = self.values.reals;
         let rotor = self.rotor()?;
         let response = rotor.respond(&flight.operation, &memory.state);
-        let Response { performance, .. } = match response {
+        let Response { performance, rates } = match response {
             Ok(response) => response,
             Err(error) => return Err(self.unsolved(error)),
         };
         let turning = flight.operation.at_speed_of(&memory.state);
         write_outputs(&mut reals, rotor, &performance, &flight.shaft, &turning);
-        reals[real::AZIMUTH] = memory.state.azimuth;
         write_stations(&mut reals, rotor);
-        for (variable, value) in REALS.iter().zip(reals) {
-            if variable.causality.is_computed() && !value.is_finite() {
-                let inputs = inputs(&self.values);
-                return Err(BlockError::NotFinite {
-                    name: variable.name,
-                    value,
-                    inputs,
-                });
-            }
-        }
+        write_states(&mut reals, &memory.state);
+        write_derivatives(&mut reals, &rates);
+        self.check_finite(&reals)?;
         self.values.reals = reals;
         let flow_state = match performance.flow_state {
             rotor::inflow::descent::FlowState::Normal => FlowState::Normal,
@@ -239,12 +381,29 @@ impl RotorBlock {
             rotor::inflow::descent::FlowState::TurbulentWake => FlowState::TurbulentWake,
             rotor::inflow::descent::FlowState::WindmillBrake => FlowState::WindmillBrake,
         };
-        self.values.integers[integer::FLOW_STATE] = flow_state as i32;
+        self.flow_state = flow_state as i32;
+        if self.stage != Stage::Integrating {
+            self.values.integers[integer::FLOW_STATE] = self.flow_state;
+        }
         self.memory = memory;
-        self.current = true;
+        self.fresh = Fresh::All;
         let rotor = self.rotor.as_ref();
         let note = rotor.and_then(|rotor| self.coverage.note(rotor));
         self.notes.extend(note);
+        Ok(())
+    }
+
+    /// An error if anything that is computed is not finite.
+    fn check_finite(&self, reals: &[f64; REALS.len()]) -> Result<(), BlockError> {
+        for (variable, value) in REALS.iter().zip(reals) {
+            if variable.causality.is_computed() && !value.is_finite() {
+                return Err(BlockError::NotFinite {
+                    name: variable.name,
+                    value: *value,
+                    inputs: inputs(&self.values),
+                });
+            }
+        }
         Ok(())
     }
 }

@@ -1,7 +1,7 @@
 //! The values of all variables, and the rules under which they may be set.
 
 use super::shown::shown;
-use super::variables::{BOOLEANS, Causality, INTEGERS, REALS, STRINGS, Variable};
+use super::variables::{BOOLEANS, Causality, INTEGERS, REALS, STATES, STRINGS, Variable, is_state};
 use thiserror::Error;
 
 /// Why a value was not read or set; nothing has changed then.
@@ -42,13 +42,29 @@ pub enum ValueError {
         "{name} is a fixed parameter and keeps {kept} once the simulation runs; set it before initialisation ends, or reset the instance"
     )]
     Fixed { name: &'static str, kept: String },
+    #[error(
+        "{name} is a parameter and keeps {kept} between events; enter Event Mode to set it"
+    )]
+    BetweenEvents { name: &'static str, kept: String },
+    #[error("{name} is a continuous state; it can be set in Continuous-Time Mode only")]
+    State { name: &'static str },
+    #[error("{name} is no input; only inputs have a derivative that can be set")]
+    NoInput { name: &'static str },
+    #[error("the derivative {value} of {name} is not a finite number; set a finite one")]
+    SlopeNotFinite { name: &'static str, value: f64 },
+    #[error("{given} continuous states were passed, but this FMU has {}", STATES.len())]
+    StateCount { given: usize },
 }
 
-/// Whether parameters that are not tunable may still change.
+/// What may change.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Stage {
+    /// Inputs and all parameters.
     Configuring,
+    /// Inputs and tunable parameters.
     Running,
+    /// Inputs and continuous states: the importer integrates. What is discrete keeps its values.
+    Integrating,
 }
 
 /// The values by value reference.
@@ -113,8 +129,11 @@ fn may_set<T>(
     let name = variable.name;
     match variable.causality {
         Causality::Output | Causality::Local => Err(ValueError::Output { name }),
-        Causality::Parameter if stage == Stage::Running && !variable.tunable && differs => {
+        Causality::Parameter if !variable.tunable && differs && stage != Stage::Configuring => {
             Err(ValueError::Fixed { name, kept: kept() })
+        }
+        Causality::Parameter if differs && stage == Stage::Integrating => {
+            Err(ValueError::BetweenEvents { name, kept: kept() })
         }
         _ => Ok(()),
     }
@@ -155,8 +174,12 @@ impl Values {
         for (reference, value) in references.iter().zip(values) {
             let (place, variable) = find(&REALS, "Real", *reference)?;
             let kept = self.reals[place];
-            may_set(variable, stage, *value != kept, || shown(kept))?;
             let name = variable.name;
+            if !is_state(*reference) {
+                may_set(variable, stage, *value != kept, || shown(kept))?;
+            } else if stage != Stage::Integrating {
+                return Err(ValueError::State { name });
+            }
             if !value.is_finite() {
                 return Err(ValueError::NotFinite {
                     name,
@@ -181,6 +204,29 @@ impl Values {
         }
         for (reference, value) in references.iter().zip(values) {
             self.reals[*reference as usize] = *value;
+        }
+        Ok(())
+    }
+
+    /// Takes the derivatives in time of inputs, or none if one is refused, into `slopes`, by value reference.
+    pub fn set_slopes(
+        references: &[u32],
+        values: &[f64],
+        slopes: &mut [f64; REALS.len()],
+    ) -> Result<(), ValueError> {
+        for (reference, value) in references.iter().zip(values) {
+            let (_, variable) = find(&REALS, "Real", *reference)?;
+            let name = variable.name;
+            if variable.causality != Causality::Input {
+                return Err(ValueError::NoInput { name });
+            }
+            if !value.is_finite() {
+                let value = *value;
+                return Err(ValueError::SlopeNotFinite { name, value });
+            }
+        }
+        for (reference, value) in references.iter().zip(values) {
+            slopes[*reference as usize] = *value;
         }
         Ok(())
     }

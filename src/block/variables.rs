@@ -32,6 +32,17 @@ pub struct Variable<T: 'static> {
     pub choices: &'static [&'static str],
 }
 
+/// One of the continuous states: its value and its derivative are Real variables.
+#[derive(Debug, Clone, Copy)]
+pub struct ContinuousState {
+    /// Value reference.
+    pub place: usize,
+    /// Value reference of the derivative in time.
+    pub derivative: usize,
+    /// Order of magnitude, > 0.
+    pub nominal: f64,
+}
+
 impl Causality {
     /// Whether the block computes the variable.
     pub fn is_computed(self) -> bool {
@@ -44,6 +55,11 @@ pub fn is_computed<T>(table: &[Variable<T>], reference: u32) -> bool {
     table
         .get(reference as usize)
         .is_some_and(|v| v.causality.is_computed())
+}
+
+/// Whether a value reference is that of a continuous state.
+pub fn is_state(reference: u32) -> bool {
+    STATES.iter().any(|state| state.place == reference as usize)
 }
 
 include!(concat!(env!("OUT_DIR"), "/variables.rs"));

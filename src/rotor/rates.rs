@@ -118,18 +118,18 @@ impl Rotor {
     }
 
     /// The state one step of `duration` s later, by Heun's method of order 3 (Heun 1900, Z. Math. Phys. 45,
-    /// p. 23).
+    /// p. 23). `operation_at`: what the rotor does so many seconds after the beginning of the step.
     pub fn step(
         &mut self,
-        operation: &Operation,
+        mut operation_at: impl FnMut(f64) -> Operation,
         state: &State,
         duration: f64,
     ) -> Result<State, SolveError> {
-        let first = self.rates(operation, state)?;
+        let first = self.rates(&operation_at(0.0), state)?;
         let at_third = state.plus(duration / 3.0, &first);
-        let second = self.rates(operation, &at_third)?;
+        let second = self.rates(&operation_at(duration / 3.0), &at_third)?;
         let at_two_thirds = state.plus(duration * 2.0 / 3.0, &second);
-        let third = self.rates(operation, &at_two_thirds)?;
+        let third = self.rates(&operation_at(duration * 2.0 / 3.0), &at_two_thirds)?;
         Ok(state
             .plus(0.25 * duration, &first)
             .plus(0.75 * duration, &third))

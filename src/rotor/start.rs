@@ -173,7 +173,7 @@ impl Rotor {
             }
             let mut state = scale.state(x);
             for _ in 0..steps as u32 {
-                state = self.step(operation, &state, passage / steps)?;
+                state = self.step(|_| *operation, &state, passage / steps)?;
             }
             if flapping > 0 {
                 state.flaps[..flapping].rotate_right(1);

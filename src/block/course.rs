@@ -1,0 +1,68 @@
+//! The course of the inputs within a step: linear, where their derivatives were set.
+
+use super::{
+    BlockError, Values,
+    shown::shown,
+    variables::{Causality, REALS},
+};
+
+/// By how much of its change an input may miss its limit at the end of a step, by rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// The inputs' derivatives in time, per second, and a place for their values within a step.
+#[derive(Debug)]
+pub struct Course {
+    /// By value reference; 0 for what is no input.
+    pub slopes: [f64; REALS.len()],
+    /// All values at some moment of the step; its strings are not used.
+    moment: Values,
+}
+
+impl Default for Course {
+    fn default() -> Self {
+        Self {
+            slopes: [0.0; REALS.len()],
+            moment: Values::default(),
+        }
+    }
+}
+
+impl Course {
+    pub fn is_moving(&self) -> bool {
+        self.slopes.iter().any(|slope| *slope != 0.0)
+    }
+
+    /// Prepares a step of `duration` s from `start`; an error if an input would leave its range.
+    pub fn begin(&mut self, start: &Values, duration: f64) -> Result<(), BlockError> {
+        self.moment.reals = start.reals;
+        self.moment.integers = start.integers;
+        self.moment.booleans = start.booleans;
+        for ((variable, slope), from) in REALS.iter().zip(self.slopes).zip(start.reals) {
+            if variable.causality != Causality::Input || slope == 0.0 {
+                continue;
+            }
+            let change = slope * duration;
+            let (value, off) = (from + change, ROUNDING * change.abs());
+            if !(variable.min - off <= value && value <= variable.max + off) || !value.is_finite() {
+                return Err(BlockError::LeavesRange {
+                    name: variable.name,
+                    value: shown(value),
+                    min: shown(variable.min),
+                    max: shown(variable.max),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The values `offset` s after the beginning of the step.
+    pub fn at(&mut self, start: &Values, offset: f64) -> &Values {
+        let reals = self.moment.reals.iter_mut().zip(start.reals);
+        for ((variable, slope), (value, from)) in REALS.iter().zip(self.slopes).zip(reals) {
+            if slope != 0.0 {
+                *value = (from + slope * offset).clamp(variable.min, variable.max);
+            }
+        }
+        &self.moment
+    }
+}

@@ -1,0 +1,99 @@
+//! The rotor's states as the list of continuous states that the table of variables declares.
+
+use super::variables::{REALS, STATES};
+use crate::rotor::{
+    State,
+    flapping::Flap,
+    state::{MOST_FLAPPING_BLADES, MOST_INFLOW_STATES},
+};
+
+/// The states, or their derivatives, in the order of `STATES`.
+pub type StateVector = [f64; STATES.len()];
+
+const _: () = assert!(STATES.len() == 2 + MOST_INFLOW_STATES + 2 * MOST_FLAPPING_BLADES);
+
+/// Azimuth, speed, inflow, flap angles and flap rates.
+pub fn to_vector(state: &State) -> StateVector {
+    let State {
+        azimuth,
+        speed,
+        inflow,
+        flaps,
+    } = state;
+    let angles = flaps.iter().map(|flap| flap.angle);
+    let rates = flaps.iter().map(|flap| flap.rate);
+    let values = [*azimuth, *speed].into_iter().chain(*inflow);
+    let mut vector = [0.0; STATES.len()];
+    for (slot, value) in vector.iter_mut().zip(values.chain(angles).chain(rates)) {
+        *slot = value;
+    }
+    vector
+}
+
+/// What `to_vector` made a list of.
+pub fn from_vector(vector: &StateVector) -> State {
+    let mut state = State {
+        azimuth: vector[0],
+        speed: vector[1],
+        ..State::default()
+    };
+    let (inflow, flaps) = vector[2..].split_at(MOST_INFLOW_STATES);
+    state.inflow.copy_from_slice(inflow);
+    let (angles, rates) = flaps.split_at(MOST_FLAPPING_BLADES);
+    for ((flap, angle), rate) in state.flaps.iter_mut().zip(angles).zip(rates) {
+        *flap = Flap {
+            angle: *angle,
+            rate: *rate,
+        };
+    }
+    state
+}
+
+/// Writes states among the Real variables.
+pub fn write_states(reals: &mut [f64; REALS.len()], state: &State) {
+    for (row, value) in STATES.iter().zip(to_vector(state)) {
+        reals[row.place] = value;
+    }
+}
+
+/// Writes derivatives among the Real variables.
+pub fn write_derivatives(reals: &mut [f64; REALS.len()], rates: &State) {
+    for (row, value) in STATES.iter().zip(to_vector(rates)) {
+        reals[row.derivative] = value;
+    }
+}
+
+/// The states among the Real variables.
+pub fn read_states(reals: &[f64; REALS.len()]) -> State {
+    from_vector(&core::array::from_fn(|i| reals[STATES[i].place]))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_names_of_the_table_are_those_of_the_states_in_this_order() {
+        let mut names = vec!["azimuth".to_owned(), "state.rotorSpeed".to_owned()];
+        names.extend((1..=MOST_INFLOW_STATES).map(|i| format!("state.inflow[{i}]")));
+        names.extend((1..=MOST_FLAPPING_BLADES).map(|i| format!("state.flapAngle[{i}]")));
+        names.extend((1..=MOST_FLAPPING_BLADES).map(|i| format!("state.flapRate[{i}]")));
+        for (row, name) in STATES.iter().zip(&names) {
+            assert_eq!(REALS[row.place].name, name);
+            assert_eq!(REALS[row.derivative].name, format!("der({name})"));
+            assert!(row.nominal > 0.0);
+        }
+        assert_eq!(STATES.len(), names.len());
+    }
+
+    #[test]
+    fn a_list_makes_the_states_of_which_it_was_made() {
+        let vector: StateVector = core::array::from_fn(|i| i as f64);
+        assert_eq!(to_vector(&from_vector(&vector)), vector);
+        let state = from_vector(&vector);
+        assert_eq!((state.azimuth, state.speed), (0.0, 1.0));
+        assert_eq!((state.inflow[0], state.inflow[23]), (2.0, 25.0));
+        assert_eq!((state.flaps[0].angle, state.flaps[7].angle), (26.0, 33.0));
+        assert_eq!((state.flaps[0].rate, state.flaps[7].rate), (34.0, 41.0));
+    }
+}
