@@ -88,7 +88,11 @@ impl<S: Scalar> Shaft<S> {
             hub_to_ground,
             airspeed: hub_to_ground.tr_mul(&(velocity - wind)),
             angular_velocity: hub_to_ground.tr_mul(&angular_velocity),
-            gravity: hub_to_ground.tr_mul(&Vector3::new(zero, zero, S::constant(-STANDARD_GRAVITY))),
+            gravity: hub_to_ground.tr_mul(&Vector3::new(
+                zero,
+                zero,
+                S::constant(-STANDARD_GRAVITY),
+            )),
         }
     }
 }

@@ -4,6 +4,7 @@
 mod bytes;
 mod course;
 mod coverage;
+mod derivative;
 mod flight;
 mod integrate;
 mod location;
@@ -15,22 +16,24 @@ mod states;
 mod values;
 pub mod variables;
 
+pub use bytes::{Damage, Reader};
+pub use derivative::DerivativeError;
 pub use location::path_from_uri;
 pub use setup::SetupError;
-pub use bytes::{Damage, Reader};
 pub use snapshot::Snapshot;
 pub use values::{Stage, ValueError, Values};
 
-use crate::rotor::{self, Operation, Response, Rotor, SolveError, Start};
+use crate::rotor::{self, Operation, Response, Rotor, SolveError};
 use course::Course;
 use coverage::Coverage;
 use flight::Flight;
 use integrate::{Inputs, Memory};
+use num_dual::Dual64;
 use outputs::{write_outputs, write_stations};
 use states::{read_states, write_derivatives, write_states};
 use std::path::PathBuf;
 use thiserror::Error;
-use variables::{Causality, FlowState, Initialization, REALS, STATES, integer, is_state, real};
+use variables::{Causality, FlowState, REALS, STATES, integer, is_state, real};
 
 /// Why the outputs could not be computed; they keep their last values.
 #[derive(Debug, Error, Clone, PartialEq)]
@@ -72,6 +75,8 @@ pub struct RotorBlock {
     resources: PathBuf,
     /// None until it is needed, and again when a parameter that shapes it has changed.
     rotor: Option<Rotor>,
+    /// The same rotor for derivatives; none until they are asked for.
+    twin: Option<Rotor<Dual64>>,
     /// The states of the rotor, which stand among the values as well, and where they come from.
     memory: Memory,
     /// How the inputs move in the next step.
@@ -94,6 +99,7 @@ impl RotorBlock {
             stage: Stage::Configuring,
             resources,
             rotor: None,
+            twin: None,
             memory: Memory::default(),
             course: Course::default(),
             fresh: Fresh::Nothing,
@@ -128,7 +134,11 @@ impl RotorBlock {
 
     /// Sets the derivatives in time of inputs, per second: all, or none if one is refused. They hold for the
     /// next step, in which the inputs move linearly from their values; after it the inputs stand at its end.
-    pub fn set_input_slopes(&mut self, references: &[u32], slopes: &[f64]) -> Result<(), ValueError> {
+    pub fn set_input_slopes(
+        &mut self,
+        references: &[u32],
+        slopes: &[f64],
+    ) -> Result<(), ValueError> {
         Values::set_slopes(references, slopes, &mut self.course.slopes)
     }
 
@@ -190,15 +200,7 @@ impl RotorBlock {
             Stage::Running | Stage::Integrating => self.memory,
             Stage::Configuring => {
                 let values = &self.values;
-                let start = setup::choice(
-                    values,
-                    integer::INITIALIZATION,
-                    Initialization::from_integer,
-                )?;
-                let start = match start {
-                    Initialization::Steady => Start::Steady,
-                    Initialization::Rest => Start::Rest,
-                };
+                let start = setup::start(values)?;
                 let azimuth_step = values.reals[real::NUMERICS__AZIMUTH_STEP];
                 let rotor = self.rotor()?;
                 let state = rotor.start(&flight.operation, start, azimuth_step);
@@ -347,12 +349,18 @@ impl RotorBlock {
             Some(rotor) => rotor,
             None => {
                 let (rotor, notes) = setup::rotor(&self.values, &self.resources)?;
-                self.notes.extend(notes);
-                self.coverage = Coverage::default();
-                rotor
+                return Ok(self.take_over(rotor, notes));
             }
         };
         Ok(self.rotor.insert(rotor))
+    }
+
+    /// A rotor that was made anew.
+    fn take_over(&mut self, rotor: Rotor, notes: Vec<String>) -> &mut Rotor {
+        self.notes.extend(notes);
+        self.coverage = Coverage::default();
+        self.twin = None;
+        self.rotor.insert(rotor)
     }
 
     fn unsolved(&self, error: SolveError) -> BlockError {

@@ -65,11 +65,12 @@ pub fn write_outputs<S: Scalar>(
     reals[real::TORQUE_COEFFICIENT] = torque_coefficient;
     // CP = CQ in these units, but for a rotor that turns backwards.
     reals[real::POWER_COEFFICIENT] = torque_coefficient * operation.speed.value().signum();
-    reals[real::FIGURE_OF_MERIT] = if thrust_coefficient.value() > 0.0 && torque_coefficient.value() > 0.0 {
-        thrust_coefficient * thrust_coefficient.sqrt() / (torque_coefficient * SQRT_2)
-    } else {
-        S::zero()
-    };
+    reals[real::FIGURE_OF_MERIT] =
+        if thrust_coefficient.value() > 0.0 && torque_coefficient.value() > 0.0 {
+            thrust_coefficient * thrust_coefficient.sqrt() / (torque_coefficient * SQRT_2)
+        } else {
+            S::zero()
+        };
     reals[real::INDUCED_VELOCITY] = performance.induced_velocity;
     let airspeed = &operation.airspeed;
     reals[real::INFLOW_RATIO] = per(airspeed.z + performance.induced_velocity, tip_speed);

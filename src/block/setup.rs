@@ -4,12 +4,12 @@ use super::{
     location::resolve,
     values::Values,
     variables::{
-        BladesModel, CompressibilityModel, DescentModel, GroundEffectModel, InflowModel, LiftModel,
-        Rotation, TipLossModel, boolean, integer, real, string,
+        BladesModel, CompressibilityModel, DescentModel, GroundEffectModel, InflowModel,
+        Initialization, LiftModel, Rotation, TipLossModel, boolean, integer, real, string,
     },
 };
 use crate::rotor::{
-    Blades, Models, Rotor,
+    Blades, Models, Rotor, Start,
     airfoil::{Airfoil, AirfoilError, Lift, SectionModel},
     compressibility::Compressibility,
     flapping::{Freedom, Hinge},
@@ -249,6 +249,19 @@ fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
             },
             drag_reynolds_exponent: values.reals[real::AIRFOIL__DRAG_REYNOLDS_EXPONENT],
         },
+    })
+}
+
+/// How the rotor starts.
+pub fn start(values: &Values) -> Result<Start, SetupError> {
+    let start = choice(
+        values,
+        integer::INITIALIZATION,
+        Initialization::from_integer,
+    )?;
+    Ok(match start {
+        Initialization::Steady => Start::Steady,
+        Initialization::Rest => Start::Rest,
     })
 }
 

@@ -4,16 +4,17 @@ use super::variables::{REALS, STATES};
 use crate::rotor::{
     State,
     flapping::Flap,
+    scalar::Scalar,
     state::{MOST_FLAPPING_BLADES, MOST_INFLOW_STATES},
 };
 
 /// The states, or their derivatives, in the order of `STATES`.
-pub type StateVector = [f64; STATES.len()];
+pub type StateVector<S = f64> = [S; STATES.len()];
 
 const _: () = assert!(STATES.len() == 2 + MOST_INFLOW_STATES + 2 * MOST_FLAPPING_BLADES);
 
 /// Azimuth, speed, inflow, flap angles and flap rates.
-pub fn to_vector(state: &State) -> StateVector {
+pub fn to_vector<S: Scalar>(state: &State<S>) -> StateVector<S> {
     let State {
         azimuth,
         speed,
@@ -23,7 +24,7 @@ pub fn to_vector(state: &State) -> StateVector {
     let angles = flaps.iter().map(|flap| flap.angle);
     let rates = flaps.iter().map(|flap| flap.rate);
     let values = [*azimuth, *speed].into_iter().chain(*inflow);
-    let mut vector = [0.0; STATES.len()];
+    let mut vector = [S::zero(); STATES.len()];
     for (slot, value) in vector.iter_mut().zip(values.chain(angles).chain(rates)) {
         *slot = value;
     }
@@ -31,7 +32,7 @@ pub fn to_vector(state: &State) -> StateVector {
 }
 
 /// What `to_vector` made a list of.
-pub fn from_vector(vector: &StateVector) -> State {
+pub fn from_vector<S: Scalar>(vector: &StateVector<S>) -> State<S> {
     let mut state = State {
         azimuth: vector[0],
         speed: vector[1],
@@ -50,21 +51,21 @@ pub fn from_vector(vector: &StateVector) -> State {
 }
 
 /// Writes states among the Real variables.
-pub fn write_states(reals: &mut [f64; REALS.len()], state: &State) {
+pub fn write_states<S: Scalar>(reals: &mut [S; REALS.len()], state: &State<S>) {
     for (row, value) in STATES.iter().zip(to_vector(state)) {
         reals[row.place] = value;
     }
 }
 
 /// Writes derivatives among the Real variables.
-pub fn write_derivatives(reals: &mut [f64; REALS.len()], rates: &State) {
+pub fn write_derivatives<S: Scalar>(reals: &mut [S; REALS.len()], rates: &State<S>) {
     for (row, value) in STATES.iter().zip(to_vector(rates)) {
         reals[row.derivative] = value;
     }
 }
 
 /// The states among the Real variables.
-pub fn read_states(reals: &[f64; REALS.len()]) -> State {
+pub fn read_states<S: Scalar>(reals: &[S; REALS.len()]) -> State<S> {
     from_vector(&core::array::from_fn(|i| reals[STATES[i].place]))
 }
 

@@ -42,9 +42,7 @@ pub enum ValueError {
         "{name} is a fixed parameter and keeps {kept} once the simulation runs; set it before initialisation ends, or reset the instance"
     )]
     Fixed { name: &'static str, kept: String },
-    #[error(
-        "{name} is a parameter and keeps {kept} between events; enter Event Mode to set it"
-    )]
+    #[error("{name} is a parameter and keeps {kept} between events; enter Event Mode to set it")]
     BetweenEvents { name: &'static str, kept: String },
     #[error("{name} is a continuous state; it can be set in Continuous-Time Mode only")]
     State { name: &'static str },
@@ -157,6 +155,11 @@ impl Values {
     /// Reads Boolean variables, 0 being false and 1 true.
     pub fn read_booleans(&self, references: &[u32], out: &mut [i32]) -> Result<(), ValueError> {
         read(&BOOLEANS, "Boolean", &self.booleans, references, out)
+    }
+
+    /// The row of a Real variable.
+    pub fn real(reference: u32) -> Result<&'static Variable<f64>, ValueError> {
+        Ok(find(&REALS, "Real", reference)?.1)
     }
 
     /// Place of a String variable.

@@ -1,6 +1,7 @@
 //! Newton's method for some equations in as many unknowns.
 
 use nalgebra::{DMatrix, DVector};
+use num_dual::Dual64;
 
 /// Most matrices of slopes.
 const MATRICES: usize = 30;
@@ -85,4 +86,26 @@ pub fn solve<E>(
         }
     }
     Ok(None)
+}
+
+/// How the root of some equations, which was found at `root`, moves: the theorem of the implicit function, dx =
+/// -J^-1 (dR/dp) dp, with J from dual numbers. None where J has no inverse.
+pub fn derivative_at_root<E>(
+    root: &DVector<f64>,
+    mut residual: impl FnMut(&DVector<Dual64>) -> Result<DVector<Dual64>, E>,
+) -> Result<Option<DVector<f64>>, E> {
+    let count = root.len();
+    let still = root.map(Dual64::from_re);
+    let by_parameters = residual(&still)?.map(|r| r.eps);
+    if by_parameters.iter().all(|change| *change == 0.0) {
+        return Ok(Some(DVector::zeros(count)));
+    }
+    let mut slopes = DMatrix::zeros(count, count);
+    for i in 0..count {
+        let mut moving = still.clone();
+        moving[i].eps = 1.0;
+        let both = residual(&moving)?.map(|r| r.eps);
+        slopes.set_column(i, &(both - &by_parameters));
+    }
+    Ok(slopes.lu().solve(&-by_parameters))
 }

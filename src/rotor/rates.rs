@@ -100,6 +100,24 @@ impl<S: Scalar> Rotor<S> {
         rates
     }
 
+    /// The state one step of `duration` s later, by Heun's method of order 3 (Heun 1900, Z. Math. Phys. 45,
+    /// p. 23). `operation_at`: what the rotor does so many seconds after the beginning of the step.
+    pub fn step(
+        &mut self,
+        mut operation_at: impl FnMut(S) -> Operation<S>,
+        state: &State<S>,
+        duration: S,
+    ) -> Result<State<S>, SolveError> {
+        let first = self.rates(&operation_at(S::zero()), state)?;
+        let at_third = state.plus(duration / 3.0, &first);
+        let second = self.rates(&operation_at(duration / 3.0), &at_third)?;
+        let at_two_thirds = state.plus(duration * 2.0 / 3.0, &second);
+        let third = self.rates(&operation_at(duration * 2.0 / 3.0), &at_two_thirds)?;
+        Ok(state
+            .plus(duration * 0.25, &first)
+            .plus(duration * 0.75, &third))
+    }
+
     fn stream(&self, flow: &DiscFlow<S>) -> Stream<S> {
         Stream {
             edgewise: flow.edgewise,
@@ -115,24 +133,6 @@ impl Rotor {
     pub fn steps(&self, operation: &Operation, state: &State, duration: f64) -> f64 {
         let fastest = self.fastest_rate(operation, state);
         libm::ceil((duration * fastest / LARGEST_PRODUCT).max(1.0))
-    }
-
-    /// The state one step of `duration` s later, by Heun's method of order 3 (Heun 1900, Z. Math. Phys. 45,
-    /// p. 23). `operation_at`: what the rotor does so many seconds after the beginning of the step.
-    pub fn step(
-        &mut self,
-        mut operation_at: impl FnMut(f64) -> Operation,
-        state: &State,
-        duration: f64,
-    ) -> Result<State, SolveError> {
-        let first = self.rates(&operation_at(0.0), state)?;
-        let at_third = state.plus(duration / 3.0, &first);
-        let second = self.rates(&operation_at(duration / 3.0), &at_third)?;
-        let at_two_thirds = state.plus(duration * 2.0 / 3.0, &second);
-        let third = self.rates(&operation_at(duration * 2.0 / 3.0), &at_two_thirds)?;
-        Ok(state
-            .plus(0.25 * duration, &first)
-            .plus(0.75 * duration, &third))
     }
 
     /// An estimate of how fast the states move towards where they belong, 1/s: inflow, flapping with the

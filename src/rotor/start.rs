@@ -5,9 +5,11 @@ use super::{
     flapping::{Flap, Hinge},
     inflow::{Inflow, Skew},
     newton,
+    scalar::Scalar,
 };
 use core::f64::consts::PI;
 use nalgebra::DVector;
+use num_dual::Dual64;
 
 /// How a rotor starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -80,18 +82,7 @@ impl Rotor {
 
     /// The inflow that stands still, as a mean over a turn of rigid blades.
     fn equilibrium(&mut self, operation: &Operation) -> Result<State, SolveError> {
-        let models = self.models;
-        self.models = Models {
-            blades: Blades::Disc,
-            hinge: Hinge {
-                freedom: None,
-                ..models.hinge
-            },
-            ..models
-        };
-        let found = self.still_inflow(operation);
-        self.models = models;
-        found
+        self.as_disc(|rotor| rotor.still_inflow(operation))
     }
 
     fn still_inflow(&mut self, operation: &Operation) -> Result<State, SolveError> {
@@ -112,18 +103,33 @@ impl Rotor {
             (_, Some(wake)) => state.inflow = wake.like(&field),
             _ => {}
         }
-        let start = DVector::from_iterator(count, state.inflow[..count].iter().map(|v| v / speed));
         let per_rate = radius / (speed * speed);
-        let mut at = state;
-        let found = newton::solve(start, TOLERANCE, |x, _| {
-            set_scaled(&mut at.inflow, x.as_slice(), speed);
-            let rates = self.rates(operation, &at)?;
+        let scale = Scale {
+            inflow: count,
+            flapping: 0,
+            speed,
+            rotation: 1.0,
+        };
+        let found = newton::solve(scale.unknowns(&state), TOLERANCE, |x, _| {
+            let rates = self.rates(operation, &scale.state(x))?;
             let scaled = rates.inflow[..count].iter().map(|r| r * per_rate);
             Ok(DVector::from_iterator(count, scaled))
         })?;
         let found = found.ok_or(SolveError::NoSteadyState)?;
-        set_scaled(&mut state.inflow, found.as_slice(), speed);
+        state.inflow = scale.state(&found).inflow;
         Ok(state)
+    }
+
+    /// The number of steps from blade to blade in which the state that repeats itself is looked for; none for a
+    /// rotor that does not turn, or hardly.
+    fn steps_of_passage(&self, operation: &Operation, state: &State, longest: f64) -> Option<f64> {
+        if operation.speed == 0.0 {
+            return None;
+        }
+        let passage = self.passage(operation);
+        let cells = libm::ceil(passage * operation.speed / longest * (1.0 - 1e-9)).max(1.0);
+        let steps = cells * self.steps(operation, state, passage / cells);
+        (steps <= MOST_STEPS).then_some(steps)
     }
 
     /// The state that repeats itself from blade to blade: after the time in which each blade comes to where
@@ -136,31 +142,12 @@ impl Rotor {
         start: State,
         azimuth_step: f64,
     ) -> Result<State, SolveError> {
-        if operation.speed == 0.0 {
+        let count = |longest: f64| self.steps_of_passage(operation, &start, longest);
+        let Some(steps) = count(azimuth_step) else {
             return Ok(start);
-        }
-        let blades = self.geometry.blades as usize;
-        let passage = 2.0 * PI / (blades as f64 * operation.speed);
-        let steps = |longest: f64| {
-            let cells = libm::ceil(passage * operation.speed / longest * (1.0 - 1e-9)).max(1.0);
-            cells * self.steps(operation, &start, passage / cells)
         };
-        let steps_for_slopes = steps(azimuth_step.max(STEP_FOR_SLOPES));
-        let steps = steps(azimuth_step);
-        if steps.is_nan() || steps > MOST_STEPS {
-            return Ok(start);
-        }
-        let flapping = if self.models.hinge.freedom.is_some() {
-            blades
-        } else {
-            0
-        };
-        let scale = Scale {
-            inflow: self.inflow_states(),
-            flapping,
-            speed: operation.speed * self.geometry.radius,
-            rotation: operation.speed,
-        };
+        let steps_for_slopes = count(azimuth_step.max(STEP_FOR_SLOPES)).unwrap_or(steps);
+        let scale = self.scale(operation);
         let mut left = MOST_STEPS_IN_ALL;
         let passed = |x: &DVector<f64>, purpose| -> Result<DVector<f64>, SolveError> {
             let steps = match purpose {
@@ -171,24 +158,127 @@ impl Rotor {
             if left < 0.0 {
                 return Err(SolveError::NoSteadyState);
             }
-            let mut state = scale.state(x);
-            for _ in 0..steps as u32 {
-                state = self.step(|_| *operation, &state, passage / steps)?;
-            }
-            if flapping > 0 {
-                state.flaps[..flapping].rotate_right(1);
-            }
-            Ok(scale.unknowns(&state) - x)
+            let passed = self.passed(operation, &scale.state(x), steps)?;
+            Ok(scale.unknowns(&passed) - x)
         };
         let found = newton::solve(scale.unknowns(&start), TOLERANCE, passed)?;
         let found = found.ok_or(SolveError::NoSteadyState)?;
         Ok(scale.state(&found))
     }
+
+    /// The state at the start with its derivatives along those of `operation`: of `found`, which `start` has
+    /// found for the values of `operation`. `twin`: this rotor, to compute with dual numbers.
+    ///
+    /// The conditions of the start, inflow that stands still or a state that repeats itself, are differentiated
+    /// where they hold.
+    pub fn start_along(
+        &mut self,
+        twin: &mut Rotor<Dual64>,
+        operation: (&Operation, &Operation<Dual64>),
+        found: &State,
+        start: Start,
+        azimuth_step: f64,
+    ) -> Result<State<Dual64>, SolveError> {
+        let plain = &Operation {
+            drive: Drive::Speed,
+            ..*operation.0
+        };
+        let dual = &Operation {
+            drive: Drive::Speed,
+            ..*operation.1
+        };
+        let mut state = found.map(Dual64::from_re);
+        state.speed = dual.speed;
+        if start == Start::Rest || !self.has_memory(plain) {
+            return Ok(state);
+        }
+        let steps = if twin.scene(dual, &state).is_blades {
+            self.steps_of_passage(plain, found, azimuth_step)
+        } else {
+            None
+        };
+        let scale = match steps {
+            Some(_) => self.scale(plain),
+            None => Scale {
+                inflow: self.inflow_states(),
+                flapping: 0,
+                speed: 1.0,
+                rotation: 1.0,
+            },
+        };
+        let moves = newton::derivative_at_root(&scale.unknowns(found), |x| {
+            let state = scale.state(x);
+            match steps {
+                Some(steps) => Ok(scale.unknowns(&twin.passed(dual, &state, steps)?) - x),
+                None => {
+                    let rates = twin.as_disc(|twin| twin.rates(dual, &state))?;
+                    Ok(scale.unknowns(&rates))
+                }
+            }
+        })?;
+        let moves = scale.state(&moves.ok_or(SolveError::NoSteadyState)?);
+        for (value, change) in state.inflow.iter_mut().zip(moves.inflow) {
+            value.eps = change;
+        }
+        for (flap, change) in state.flaps.iter_mut().zip(moves.flaps) {
+            (flap.angle.eps, flap.rate.eps) = (change.angle, change.rate);
+        }
+        Ok(state)
+    }
+
+    fn scale(&self, operation: &Operation) -> Scale {
+        let flaps = self.models.hinge.freedom.is_some();
+        Scale {
+            inflow: self.inflow_states(),
+            flapping: if flaps {
+                self.geometry.blades as usize
+            } else {
+                0
+            },
+            speed: operation.speed * self.geometry.radius,
+            rotation: operation.speed,
+        }
+    }
 }
 
-fn set_scaled(values: &mut [f64], scaled: &[f64], scale: f64) {
-    for (value, x) in values.iter_mut().zip(scaled) {
-        *value = x * scale;
+impl<S: Scalar> Rotor<S> {
+    /// Does something with the rotor's blades rigid and their loads averaged over the turn.
+    fn as_disc<T>(&mut self, task: impl FnOnce(&mut Self) -> T) -> T {
+        let models = self.models;
+        self.models = Models {
+            blades: Blades::Disc,
+            hinge: Hinge {
+                freedom: None,
+                ..models.hinge
+            },
+            ..models
+        };
+        let done = task(self);
+        self.models = models;
+        done
+    }
+
+    /// Time in which a blade comes to where the next one was, s, negative for a rotor that turns backwards.
+    fn passage(&self, operation: &Operation<S>) -> S {
+        S::constant(2.0 * PI) / (operation.speed * f64::from(self.geometry.blades))
+    }
+
+    /// The state after that time, with each blade's flapping in the place of the one before it.
+    fn passed(
+        &mut self,
+        operation: &Operation<S>,
+        state: &State<S>,
+        steps: f64,
+    ) -> Result<State<S>, SolveError> {
+        let step = self.passage(operation) / steps;
+        let mut state = *state;
+        for _ in 0..steps as u32 {
+            state = self.step(|_| *operation, &state, step)?;
+        }
+        if self.models.hinge.freedom.is_some() {
+            state.flaps[..self.geometry.blades as usize].rotate_right(1);
+        }
+        Ok(state)
     }
 }
 
@@ -201,17 +291,19 @@ struct Scale {
 }
 
 impl Scale {
-    fn unknowns(&self, state: &State) -> DVector<f64> {
-        let inflow = state.inflow[..self.inflow].iter().map(|v| v / self.speed);
+    fn unknowns<S: Scalar>(&self, state: &State<S>) -> DVector<S> {
+        let inflow = state.inflow[..self.inflow].iter().map(|v| *v / self.speed);
         let flaps = &state.flaps[..self.flapping];
         let flaps = flaps.iter().flat_map(|f| [f.angle, f.rate / self.rotation]);
         DVector::from_iterator(self.inflow + 2 * self.flapping, inflow.chain(flaps))
     }
 
-    fn state(&self, unknowns: &DVector<f64>) -> State {
+    fn state<S: Scalar>(&self, unknowns: &DVector<S>) -> State<S> {
         let mut state = State::default();
         let (inflow, flaps) = unknowns.as_slice().split_at(self.inflow);
-        set_scaled(&mut state.inflow, inflow, self.speed);
+        for (value, x) in state.inflow.iter_mut().zip(inflow) {
+            *value = *x * self.speed;
+        }
         for (flap, x) in state.flaps.iter_mut().zip(flaps.chunks_exact(2)) {
             *flap = Flap {
                 angle: x[0],

@@ -38,21 +38,6 @@ impl<S: Scalar> Default for State<S> {
 }
 
 impl State {
-    /// `self + factor * rates`.
-    pub fn plus(&self, factor: f64, rates: &Self) -> Self {
-        let mut sum = *self;
-        sum.azimuth += factor * rates.azimuth;
-        sum.speed += factor * rates.speed;
-        for (value, rate) in sum.inflow.iter_mut().zip(&rates.inflow) {
-            *value += factor * rate;
-        }
-        for (flap, rate) in sum.flaps.iter_mut().zip(&rates.flaps) {
-            flap.angle += factor * rate.angle;
-            flap.rate += factor * rate.rate;
-        }
-        sum
-    }
-
     /// Largest difference to another state in anything but the azimuth: m/s, rad or rad/s.
     pub fn largest_change(&self, other: &Self) -> f64 {
         let inflow = self.inflow.iter().zip(&other.inflow);
@@ -66,6 +51,34 @@ impl State {
 }
 
 impl<S: Scalar> State<S> {
+    /// The state with a function of each of its numbers.
+    pub fn map<T: Scalar>(&self, function: impl Fn(S) -> T) -> State<T> {
+        State {
+            azimuth: function(self.azimuth),
+            speed: function(self.speed),
+            inflow: self.inflow.map(&function),
+            flaps: self.flaps.map(|flap| Flap {
+                angle: function(flap.angle),
+                rate: function(flap.rate),
+            }),
+        }
+    }
+
+    /// `self + factor * rates`.
+    pub fn plus(&self, factor: S, rates: &Self) -> Self {
+        let mut sum = *self;
+        sum.azimuth += factor * rates.azimuth;
+        sum.speed += factor * rates.speed;
+        for (value, rate) in sum.inflow.iter_mut().zip(&rates.inflow) {
+            *value += factor * *rate;
+        }
+        for (flap, rate) in sum.flaps.iter_mut().zip(&rates.flaps) {
+            flap.angle += factor * rate.angle;
+            flap.rate += factor * rate.rate;
+        }
+        sum
+    }
+
     /// The first three states of the inflow as a linear distribution.
     pub fn field(&self) -> Field<S> {
         let [mean, cosine, sine, ..] = self.inflow;

@@ -64,7 +64,7 @@ pub fn solve<S: Scalar>(
     let factor = |v: S, through: S, speed: S| {
         let is_descent = descent != Descent::Momentum && (meets.through * v).value() < 0.0;
         let leaves = if is_descent {
-            let leaves = descent.speed(S::zero(), meets.through, v);
+            let leaves = descent.speed(S::zero(), meets.through, through - meets.through);
             if leaves.value() < speed.value() {
                 leaves
             } else {

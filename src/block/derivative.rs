@@ -1,0 +1,152 @@
+//! Exact derivatives along a direction: the physics computed once with dual numbers.
+
+use super::{
+    BlockError, RotorBlock, Stage,
+    flight::Flight,
+    outputs::{write_outputs, write_stations},
+    setup,
+    states::{read_states, write_derivatives, write_states},
+    values::{ValueError, Values},
+    variables::{Causality, REALS, STATES, is_state, real},
+};
+use crate::rotor::{Response, Rotor, State};
+use num_dual::Dual64;
+use thiserror::Error;
+
+/// Why a derivative was not computed.
+#[derive(Debug, Error, Clone, PartialEq)]
+pub enum DerivativeError {
+    #[error(transparent)]
+    Reference(#[from] ValueError),
+    #[error("{name} is not computed, so that it has no derivative; ask for outputs or der(...)")]
+    NotUnknown { name: &'static str },
+    #[error(
+        "there are no derivatives by {name}; they are by inputs, tunable parameters and, once initialised, states"
+    )]
+    NotKnown { name: &'static str },
+    #[error("{name} has no derivative by {knowns} in this state ({change}); move away from it")]
+    NoDerivative {
+        name: &'static str,
+        knowns: String,
+        change: f64,
+    },
+    #[error(transparent)]
+    Block(#[from] BlockError),
+}
+
+/// All Real variables by value reference.
+type Reals = [Dual64; REALS.len()];
+
+impl RotorBlock {
+    /// The derivatives of what is computed (outputs, stations, derivatives of the states) along a direction that
+    /// `knowns` (inputs, states, tunable parameters) take with the seeds `along`: into `out` the sums of
+    /// (d unknown/d known) times seed, unit of the unknown. At the present inputs and states; while the block is
+    /// configured, with the states that the start finds, which move with the inputs. At a corner of a table or of
+    /// the model, the one-sided derivative towards the side to which the direction leads. All or nothing.
+    pub fn directional_derivative(
+        &mut self,
+        unknowns: &[u32],
+        knowns: &[u32],
+        along: &[f64],
+        out: &mut [f64],
+    ) -> Result<(), DerivativeError> {
+        let mut reals = self.values.reals.map(Dual64::from_re);
+        for (known, seed) in knowns.iter().zip(along) {
+            let variable = Values::real(*known)?;
+            let has_state = is_state(*known) && self.stage != Stage::Configuring;
+            let may_change = variable.causality == Causality::Input
+                || (variable.causality == Causality::Parameter && variable.tunable);
+            if !may_change && !has_state {
+                let name = variable.name;
+                return Err(DerivativeError::NotKnown { name });
+            }
+            reals[*known as usize].eps += seed;
+        }
+        for unknown in unknowns {
+            let variable = Values::real(*unknown)?;
+            if !variable.causality.is_computed() {
+                let name = variable.name;
+                return Err(DerivativeError::NotUnknown { name });
+            }
+        }
+        self.respond_along(&mut reals)?;
+        let change = |unknown: &u32| reals[*unknown as usize].eps;
+        if let Some(bad) = unknowns.iter().find(|u| !change(u).is_finite()) {
+            let names = knowns.iter().map(|k| REALS[*k as usize].name);
+            return Err(DerivativeError::NoDerivative {
+                name: REALS[*bad as usize].name,
+                knowns: names.collect::<Vec<_>>().join(", "),
+                change: change(bad),
+            });
+        }
+        for (slot, unknown) in out.iter_mut().zip(unknowns) {
+            *slot = change(unknown);
+        }
+        Ok(())
+    }
+
+    /// The derivatives of outputs in time, per second, at the present: with the states' own rates and the inputs at
+    /// rest. All or nothing.
+    pub fn output_rates(
+        &mut self,
+        references: &[u32],
+        out: &mut [f64],
+    ) -> Result<(), DerivativeError> {
+        for reference in references {
+            let variable = Values::real(*reference)?;
+            if variable.causality != Causality::Output {
+                let name = variable.name;
+                return Err(DerivativeError::NotUnknown { name });
+            }
+        }
+        let states = STATES.map(|row| row.place as u32);
+        let mut rates = [0.0; STATES.len()];
+        self.derivatives(&mut rates)?;
+        self.directional_derivative(references, &states, &rates, out)
+    }
+
+    /// Replaces what is computed among the variables by what the others make of it.
+    fn respond_along(&mut self, reals: &mut Reals) -> Result<(), DerivativeError> {
+        if self.stage == Stage::Configuring {
+            self.update()?;
+        }
+        let flight = Flight::with_reals(&self.values, reals).map_err(BlockError::from)?;
+        let mut twin = match self.twin.take() {
+            Some(twin) => twin,
+            None => self.rotor()?.with_numbers(),
+        };
+        let response = self.respond_of(&mut twin, &flight, reals);
+        let written = response.map(|(state, Response { performance, rates })| {
+            let turning = flight.operation.at_speed_of(&state);
+            write_outputs(reals, &twin, &performance, &flight.shaft, &turning);
+            write_stations(reals, &twin);
+            write_states(reals, &state);
+            write_derivatives(reals, &rates);
+        });
+        self.twin = Some(twin);
+        Ok(written?)
+    }
+
+    /// The states, and what the rotor does in them.
+    fn respond_of(
+        &mut self,
+        twin: &mut Rotor<Dual64>,
+        flight: &Flight<Dual64>,
+        reals: &Reals,
+    ) -> Result<(State<Dual64>, Response<Dual64>), BlockError> {
+        let state = if self.stage == Stage::Configuring {
+            let plain = Flight::new(&self.values)?.operation;
+            let start = setup::start(&self.values)?;
+            let azimuth_step = self.values.reals[real::NUMERICS__AZIMUTH_STEP];
+            let found = self.memory.state;
+            let operation = (&plain, &flight.operation);
+            let rotor = self.rotor()?;
+            let state = rotor.start_along(twin, operation, &found, start, azimuth_step);
+            state.map_err(|e| self.unsolved(e))?
+        } else {
+            read_states(reals)
+        };
+        let response = twin.respond(&flight.operation, &state);
+        Ok((state, response.map_err(|e| self.unsolved(e))?))
+    }
+}

@@ -1,0 +1,446 @@
+//! The exact derivatives of the block against differences of its values.
+
+mod support {
+    pub mod block;
+}
+
+use helicopter_rotor::block::{
+    DerivativeError, RotorBlock,
+    variables::{Causality, INTEGERS, REALS, STATES, boolean, integer, is_state, real, string},
+};
+use support::block::{choose, default_block, project, set};
+
+/// Ways to hold the blades.
+const BLADES: [&str; 3] = ["automatic", "disc", "flapping"];
+
+/// How a derivative is differenced: with values on both sides, or from the side to which the exact one leads,
+/// where the model has corners (axial flow: speeds along the disc are magnitudes, and descent begins).
+#[derive(Clone, Copy, PartialEq)]
+enum Difference {
+    Central,
+    OneSided,
+}
+
+struct Flight {
+    name: &'static str,
+    velocity: [f64; 3],
+    difference: Difference,
+    /// Of the differences, as a part of a known's scale.
+    step: f64,
+    /// On what differences and exact derivatives differ.
+    bound: f64,
+    settings: fn(&mut RotorBlock),
+}
+
+const FLIGHTS: [Flight; 6] = [
+    Flight {
+        name: "hover",
+        velocity: [0.0, 0.0, 0.0],
+        difference: Difference::OneSided,
+        step: 1e-4,
+        bound: 1e-7,
+        settings: |_| {},
+    },
+    Flight {
+        name: "climb, driven by a torque",
+        velocity: [0.0, 0.0, 4.0],
+        difference: Difference::OneSided,
+        step: 1e-4,
+        bound: 1e-7,
+        settings: |block| {
+            choose(block, integer::DRIVE_MODE, "torque");
+            set(block, real::DRIVE_TORQUE, 3.0);
+        },
+    },
+    Flight {
+        name: "vertical descent",
+        velocity: [0.0, 0.0, -5.0],
+        difference: Difference::OneSided,
+        step: 1e-4,
+        bound: 1e-7,
+        settings: |_| {},
+    },
+    Flight {
+        name: "oblique descent by Johnson",
+        velocity: [3.0, 1.0, -5.0],
+        difference: Difference::Central,
+        step: 3e-4,
+        // Differences have errors of their own there: the curve's curvature jumps from piece to piece, and for
+        // dynamic inflow the mass flow's slope is a difference, with its rounding.
+        bound: 1e-6,
+        settings: |block| choose(block, integer::MODEL__DESCENT, "johnson"),
+    },
+    Flight {
+        name: "near the ground",
+        velocity: [17.0, 3.0, 1.0],
+        difference: Difference::Central,
+        step: 1e-4,
+        bound: 1e-7,
+        settings: |block| {
+            if block.values().integers[integer::MODEL__INFLOW] != 1 {
+                choose(block, integer::MODEL__GROUND_EFFECT, "cheesemanBennett");
+            }
+            set(block, real::HEIGHT_ABOVE_GROUND, 1.9);
+        },
+    },
+    Flight {
+        name: "oblique descent of a clockwise rotor with cyclic and rates",
+        velocity: [12.0, -2.0, -4.0],
+        difference: Difference::Central,
+        step: 1e-4,
+        bound: 1e-7,
+        settings: |block| {
+            choose(block, integer::GEOMETRY__ROTATION, "clockwise");
+            choose(block, integer::MODEL__TIP_LOSS, "prandtlTipAndRoot");
+            for (place, value) in [
+                (real::CYCLIC_LATERAL, 0.03),
+                (real::CYCLIC_LONGITUDINAL, 0.02),
+                (real::TILT, 0.1),
+                (real::ANGULAR_VELOCITY_1, 0.2),
+                (real::ANGULAR_VELOCITY_2, 0.2),
+            ] {
+                set(block, place, value);
+            }
+        },
+    },
+];
+
+fn near_the_ground() -> &'static Flight {
+    &FLIGHTS[4]
+}
+
+/// A block in a flight with section data without corners, before its initialisation.
+fn smooth_block(inflow: &str, blades: &str, flight: &Flight) -> RotorBlock {
+    let mut block = default_block();
+    let file = project().join("tests/data/smooth.txt");
+    let file = file.to_str().unwrap();
+    block
+        .set_strings(&[string::AIRFOIL__FILE as u32], &[file])
+        .unwrap();
+    choose(&mut block, integer::MODEL__LIFT, "thesisSlope");
+    into_flight(&mut block, inflow, blades, flight);
+    block
+}
+
+fn into_flight(block: &mut RotorBlock, inflow: &str, blades: &str, flight: &Flight) {
+    choose(block, integer::MODEL__INFLOW, inflow);
+    if blades == "flapping" {
+        let enabled = boolean::FLAPPING__ENABLED as u32;
+        block.set_booleans(&[enabled], &[1]).unwrap();
+        set(block, real::FLAPPING__HINGE_OFFSET, 0.05);
+        set(block, real::FLAPPING__DELTA3, 0.2);
+    } else {
+        choose(block, integer::MODEL__BLADES, blades);
+    }
+    let places = [real::VELOCITY_1, real::VELOCITY_2, real::VELOCITY_3];
+    for (place, value) in places.into_iter().zip(flight.velocity) {
+        set(block, place, value);
+    }
+    set(block, real::COLLECTIVE, 0.15);
+    (flight.settings)(block);
+}
+
+/// In flight, a few milliseconds after the start, with states that the importer may set.
+fn under_way(mut block: RotorBlock) -> RotorBlock {
+    block.start().unwrap();
+    block.step(0.003).unwrap();
+    block.begin_integration().unwrap();
+    block
+}
+
+fn inputs_and_states() -> Vec<usize> {
+    let is_known = |i: &usize| REALS[*i].causality == Causality::Input || is_state(*i as u32);
+    (0..REALS.len()).filter(is_known).collect()
+}
+
+fn outputs_and_rates() -> Vec<usize> {
+    let is_rate = |i: usize| STATES.iter().any(|row| row.derivative == i);
+    let is_unknown = |i: &usize| REALS[*i].causality == Causality::Output || is_rate(*i);
+    (0..REALS.len()).filter(is_unknown).collect()
+}
+
+/// A change of a known that counts as one: its order of magnitude.
+fn known_scale(place: usize) -> f64 {
+    if let Some(state) = STATES.iter().find(|row| row.place == place) {
+        return state.nominal;
+    }
+    match (place, REALS[place].unit) {
+        (real::ALTITUDE, _) => 1000.0,
+        (_, "rad") => 0.1,
+        (_, "rev/min") => 1000.0,
+        (_, "m/s") => 10.0,
+        (_, "N.m") => 5.0,
+        _ => 1.0,
+    }
+}
+
+/// A change of an unknown that counts as one, at least.
+fn unknown_scale(place: usize) -> f64 {
+    match REALS[place].unit {
+        "N" | "N.m" | "W" => 1.0,
+        "m/s2" | "rad/s2" => 1.0,
+        "1" => 1e-4,
+        _ => 0.01,
+    }
+}
+
+/// The exact derivatives of unknowns by one known.
+fn exact(block: &mut RotorBlock, unknowns: &[usize], known: usize) -> Vec<f64> {
+    let references: Vec<u32> = unknowns.iter().map(|u| *u as u32).collect();
+    let mut out = vec![f64::NAN; unknowns.len()];
+    block
+        .directional_derivative(&references, &[known as u32], &[1.0], &mut out)
+        .unwrap_or_else(|error| panic!("{}: {error}", REALS[known].name));
+    out
+}
+
+/// The same by differences of the fourth order, with steps of `part` of the known's scale.
+fn differences(
+    block: &mut RotorBlock,
+    unknowns: &[usize],
+    known: usize,
+    difference: Difference,
+    part: f64,
+) -> Vec<f64> {
+    let (base, step) = (block.values().reals[known], part * known_scale(known));
+    let mut at = |steps: f64| -> Vec<f64> {
+        set(block, known, base + steps * step);
+        block.update().unwrap();
+        unknowns.iter().map(|u| block.values().reals[*u]).collect()
+    };
+    let weights: &[(f64, f64)] = match difference {
+        Difference::Central => &[(-2.0, 1.0), (-1.0, -8.0), (1.0, 8.0), (2.0, -1.0)],
+        Difference::OneSided => &[
+            (0.0, -25.0),
+            (1.0, 48.0),
+            (2.0, -36.0),
+            (3.0, 16.0),
+            (4.0, -3.0),
+        ],
+    };
+    let mut sums = vec![0.0; unknowns.len()];
+    for (steps, weight) in weights {
+        for (sum, value) in sums.iter_mut().zip(at(*steps)) {
+            *sum += weight * value / (12.0 * step);
+        }
+    }
+    at(0.0);
+    sums
+}
+
+/// The largest error of an exact derivative as a part of the unknown's largest derivative, each known by its
+/// scale, and of which it is.
+fn worst(
+    block: &mut RotorBlock,
+    knowns: &[usize],
+    difference: Difference,
+    part: f64,
+) -> (f64, String) {
+    let unknowns = outputs_and_rates();
+    let columns: Vec<_> = knowns
+        .iter()
+        .map(|known| {
+            let exact = exact(block, &unknowns, *known);
+            (
+                exact,
+                differences(block, &unknowns, *known, difference, part),
+            )
+        })
+        .collect();
+    let mut worst = (0.0, String::new());
+    for (j, unknown) in unknowns.iter().enumerate() {
+        let sizes = columns.iter().zip(knowns);
+        let sizes = sizes.map(|(column, known)| column.0[j].abs() * known_scale(*known));
+        let scale = sizes.fold(unknown_scale(*unknown), f64::max);
+        for ((exact, difference), known) in columns.iter().zip(knowns) {
+            let (exact, difference) = (exact[j], difference[j]);
+            let error = (exact - difference).abs() * known_scale(*known) / scale;
+            if error > worst.0 {
+                let (unknown, known) = (REALS[*unknown].name, REALS[*known].name);
+                let text = format!("d {unknown}/d {known} = {exact:e}, differences {difference:e}");
+                worst = (error, text);
+            }
+        }
+    }
+    worst
+}
+
+/// All inflow models with every way to hold the blades.
+fn models() -> impl Iterator<Item = (&'static str, &'static str)> {
+    let inflows = INTEGERS[integer::MODEL__INFLOW].choices.iter();
+    let all = inflows.flat_map(|inflow| BLADES.map(|blades| (*inflow, blades)));
+    all.filter(|case| *case != ("annulusClosedForm", "flapping"))
+}
+
+#[test]
+fn derivatives_by_inputs_and_states_are_those_of_differences_in_all_models() {
+    for (inflow, blades) in models() {
+        for flight in &FLIGHTS {
+            let mut block = under_way(smooth_block(inflow, blades, flight));
+            let (error, which) = worst(
+                &mut block,
+                &inputs_and_states(),
+                flight.difference,
+                flight.step,
+            );
+            let case = format!("{inflow}, {blades}, {}", flight.name);
+            assert!(error < flight.bound, "{case}: {error:.1e}, {which}");
+        }
+    }
+}
+
+#[test]
+fn derivatives_by_tunable_parameters_are_those_of_differences() {
+    let knowns: Vec<usize> = (0..REALS.len()).filter(|i| REALS[*i].tunable).collect();
+    assert_eq!(knowns.len(), 3, "spring, density, temperature");
+    for (inflow, blades) in models() {
+        let mut block = smooth_block(inflow, blades, &FLIGHTS[5]);
+        choose(&mut block, integer::AIR__MODEL, "constant");
+        set(&mut block, real::FLAPPING__HINGE_SPRING, 5.0);
+        block.start().unwrap();
+        block.step(0.003).unwrap();
+        let (error, which) = worst(&mut block, &knowns, Difference::Central, 1e-3);
+        assert!(error < 1e-7, "{inflow}, {blades}: {error:.1e}, {which}");
+    }
+}
+
+/// In the tables of the default airfoil corners are everywhere, and small differences seldom meet one.
+#[test]
+fn derivatives_with_a_table_of_corners_are_those_of_small_differences() {
+    for inflow in ["annulus", "uniform", "finiteBlades", "petersHe"] {
+        for flight in &FLIGHTS {
+            let mut block = default_block();
+            into_flight(&mut block, inflow, "automatic", flight);
+            let mut block = under_way(block);
+            let (error, which) = worst(&mut block, &inputs_and_states(), flight.difference, 1e-6);
+            let case = format!("{inflow}, {}", flight.name);
+            assert!(error < 1e-3, "{case}: {error:.1e}, {which}");
+        }
+    }
+}
+
+/// Before the simulation runs, the states are those that the start finds, and move with the inputs.
+#[test]
+fn derivatives_at_the_start_are_those_of_differences() {
+    let knowns = [
+        real::COLLECTIVE,
+        real::RPM,
+        real::CYCLIC_LATERAL,
+        real::VELOCITY_1,
+        real::VELOCITY_3,
+        real::ALTITUDE,
+    ];
+    for (inflow, blades) in [
+        ("annulus", "automatic"),
+        ("annulus", "flapping"),
+        ("pittPetersDynamic", "disc"),
+        ("pittPetersDynamic", "automatic"),
+        ("pittPetersDynamic", "flapping"),
+        ("petersHe", "disc"),
+        ("petersHe", "flapping"),
+    ] {
+        for flight in [&FLIGHTS[0], near_the_ground()] {
+            let mut block = smooth_block(inflow, blades, flight);
+            set(&mut block, real::NUMERICS__AZIMUTH_STEP, 0.15);
+            block.update().unwrap();
+            let (error, which) = worst(&mut block, &knowns, flight.difference, 3e-4);
+            let case = format!("{inflow}, {blades}, {}", flight.name);
+            // The start is found to 1e-10 of the tip speed, which the differences divide by their steps.
+            assert!(error < 5e-5, "{case}: {error:.1e}, {which}");
+        }
+    }
+}
+
+#[test]
+fn outputs_change_in_time_as_they_do_from_step_to_step() {
+    let mut block = smooth_block("pittPetersDynamic", "flapping", near_the_ground());
+    choose(&mut block, integer::INITIALIZATION, "rest");
+    set(&mut block, real::NUMERICS__AZIMUTH_STEP, 0.001);
+    block.start().unwrap();
+    block.step(0.01).unwrap();
+    let outputs = [real::THRUST, real::TORQUE, real::CONING, real::AZIMUTH];
+    let mut rates = [f64::NAN; 4];
+    let references = outputs.map(|o| o as u32);
+    block.output_rates(&references, &mut rates).unwrap();
+    let step = 1e-6;
+    let at_present = outputs.map(|o| block.values().reals[o]);
+    block.step(step).unwrap();
+    for ((output, rate), before) in outputs.into_iter().zip(rates).zip(at_present) {
+        let difference = (block.values().reals[output] - before) / step;
+        let name = REALS[output].name;
+        assert!(
+            (rate / difference - 1.0).abs() < 1e-3,
+            "{name}: {rate} {difference}"
+        );
+    }
+}
+
+/// A direction is a sum: the derivative along it is that of its parts.
+#[test]
+fn derivatives_along_several_knowns_add_up() {
+    let mut block = under_way(smooth_block("annulus", "automatic", near_the_ground()));
+    let unknowns = outputs_and_rates();
+    let references: Vec<u32> = unknowns.iter().map(|u| *u as u32).collect();
+    let knowns = [real::COLLECTIVE, real::VELOCITY_3, real::COLLECTIVE];
+    let mut sum = vec![0.0; unknowns.len()];
+    block
+        .directional_derivative(
+            &references,
+            &knowns.map(|k| k as u32),
+            &[0.5, 2.0, 0.25],
+            &mut sum,
+        )
+        .unwrap();
+    let by_pitch = exact(&mut block, &unknowns, knowns[0]);
+    let by_climb = exact(&mut block, &unknowns, knowns[1]);
+    for (i, sum) in sum.iter().enumerate() {
+        let expected = 0.75 * by_pitch[i] + 2.0 * by_climb[i];
+        assert!((sum - expected).abs() <= 1e-10 * (1.0 + expected.abs()));
+    }
+}
+
+#[test]
+fn asking_changes_nothing() {
+    let run = |asks: bool| {
+        let mut block = smooth_block("petersHe", "flapping", near_the_ground());
+        block.start().unwrap();
+        for _ in 0..3 {
+            block.step(0.01).unwrap();
+            if asks {
+                exact(&mut block, &outputs_and_rates(), real::COLLECTIVE);
+            }
+        }
+        block.values().reals.map(f64::to_bits)
+    };
+    assert_eq!(run(true), run(false));
+}
+
+#[test]
+fn what_has_no_derivative_is_refused_by_name() {
+    let mut block = under_way(smooth_block("annulus", "automatic", near_the_ground()));
+    let mut ask = |unknown: usize, known: usize| {
+        let mut out = [7.0];
+        let asked =
+            block.directional_derivative(&[unknown as u32], &[known as u32], &[1.0], &mut out);
+        assert_eq!(out[0], 7.0, "nothing is written");
+        asked.unwrap_err()
+    };
+    assert_eq!(
+        ask(real::COLLECTIVE, real::RPM),
+        DerivativeError::NotUnknown { name: "collective" }
+    );
+    assert_eq!(
+        ask(real::THRUST, real::GEOMETRY__RADIUS),
+        DerivativeError::NotKnown {
+            name: "geometry.radius"
+        }
+    );
+    assert_eq!(
+        ask(real::THRUST, real::TORQUE),
+        DerivativeError::NotKnown { name: "torque" }
+    );
+    assert!(matches!(
+        ask(real::THRUST, 99_999),
+        DerivativeError::Reference(_)
+    ));
+}
