@@ -161,7 +161,10 @@ impl Table {
 
     /// The variable that holds the derivative of a state.
     fn derivative(&self, state: &Variable) -> Result<Variable, String> {
-        let unit = self.units.iter().find(|u| Some(&u.name) == state.unit.as_ref());
+        let unit = self
+            .units
+            .iter()
+            .find(|u| Some(&u.name) == state.unit.as_ref());
         let unit = unit.and_then(|u| u.per_second.clone()).ok_or(format!(
             "{}: units.toml names no unit perSecond for the derivative of a state in {:?}",
             state.name, state.unit

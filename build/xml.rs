@@ -254,9 +254,8 @@ fn start_text(table: &Table, v: &Variable) -> Option<String> {
 /// as initial unknowns with the inputs and parameters on which they depend at the start.
 fn model_structure(xml: &mut Xml, table: &Table) -> io::Result<()> {
     let is_output = |v: &&Variable| v.causality == "output";
-    let is_initial = |v: &&Variable| {
-        v.causality == "output" || v.nominal.is_some() || v.derivative_of.is_some()
-    };
+    let is_initial =
+        |v: &&Variable| v.causality == "output" || v.nominal.is_some() || v.derivative_of.is_some();
     let variables = || table.variables.iter();
     xml.create_element("ModelStructure")
         .write_inner_content(|xml| {

@@ -5,10 +5,11 @@ use helicopter_rotor::{
     fmi2::{
         co_simulation::fmi2DoStep,
         common::{
-            fmi2EnterInitializationMode, fmi2ExitInitializationMode, fmi2FreeInstance, fmi2GetReal,
-            fmi2Instantiate, fmi2SetBoolean, fmi2SetInteger, fmi2SetReal,
+            fmi2EnterInitializationMode, fmi2ExitInitializationMode, fmi2FreeInstance,
+            fmi2Instantiate,
         },
         types::{FMI2_CO_SIMULATION, fmi2Status},
+        values::{fmi2GetReal, fmi2SetBoolean, fmi2SetInteger, fmi2SetReal},
     },
 };
 use std::{

@@ -15,9 +15,9 @@ mod states;
 mod values;
 pub mod variables;
 
+pub use bytes::{Damage, Reader};
 pub use location::path_from_uri;
 pub use setup::SetupError;
-pub use bytes::{Damage, Reader};
 pub use snapshot::Snapshot;
 pub use values::{Stage, ValueError, Values};
 
@@ -128,7 +128,11 @@ impl RotorBlock {
 
     /// Sets the derivatives in time of inputs, per second: all, or none if one is refused. They hold for the
     /// next step, in which the inputs move linearly from their values; after it the inputs stand at its end.
-    pub fn set_input_slopes(&mut self, references: &[u32], slopes: &[f64]) -> Result<(), ValueError> {
+    pub fn set_input_slopes(
+        &mut self,
+        references: &[u32],
+        slopes: &[f64],
+    ) -> Result<(), ValueError> {
         Values::set_slopes(references, slopes, &mut self.course.slopes)
     }
 

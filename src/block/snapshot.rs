@@ -177,8 +177,8 @@ impl Snapshot {
         let wrong = |name: &str| Err(Damage::Value(name.to_owned()));
         let reals = self.values.reals.iter().zip(&self.slopes);
         for (variable, (value, slope)) in REALS.iter().zip(reals) {
-            let is_in_range = variable.causality.is_computed()
-                || (variable.min..=variable.max).contains(value);
+            let is_in_range =
+                variable.causality.is_computed() || (variable.min..=variable.max).contains(value);
             let may_move = variable.causality == Causality::Input || *slope == 0.0;
             if !value.is_finite() || !slope.is_finite() || !is_in_range || !may_move {
                 return wrong(variable.name);
@@ -360,10 +360,19 @@ mod tests {
         assert_eq!(refused(&|s| s.values.reals[1] = -1.0), "rpm");
         assert_eq!(refused(&|s| s.slopes[1] = f64::INFINITY), "rpm");
         assert_eq!(refused(&|s| s.slopes[STATES[0].place] = 1.0), "azimuth");
-        assert_eq!(refused(&|s| s.values.integers[blades] = 0), INTEGERS[blades].name);
+        assert_eq!(
+            refused(&|s| s.values.integers[blades] = 0),
+            INTEGERS[blades].name
+        );
         assert_eq!(refused(&|s| s.flow_state = 9), "flowState");
-        assert_eq!(refused(&|s| s.values.strings[0] = "\0".into()), STRINGS[0].name);
-        assert_eq!(refused(&|s| s.memory.state.azimuth = f64::NAN), "a continuous state");
+        assert_eq!(
+            refused(&|s| s.values.strings[0] = "\0".into()),
+            STRINGS[0].name
+        );
+        assert_eq!(
+            refused(&|s| s.memory.state.azimuth = f64::NAN),
+            "a continuous state"
+        );
         let contradicting = |s: &mut Snapshot| {
             s.stage = Stage::Running;
             s.memory.state.azimuth = 1.0;

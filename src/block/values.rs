@@ -42,9 +42,7 @@ pub enum ValueError {
         "{name} is a fixed parameter and keeps {kept} once the simulation runs; set it before initialisation ends, or reset the instance"
     )]
     Fixed { name: &'static str, kept: String },
-    #[error(
-        "{name} is a parameter and keeps {kept} between events; enter Event Mode to set it"
-    )]
+    #[error("{name} is a parameter and keeps {kept} between events; enter Event Mode to set it")]
     BetweenEvents { name: &'static str, kept: String },
     #[error("{name} is a continuous state; it can be set in Continuous-Time Mode only")]
     State { name: &'static str },
