@@ -8,9 +8,11 @@ mod abi {
     mod exports;
     mod extremes;
     mod files;
+    mod input_derivatives;
     mod legality;
     mod logging;
     mod many;
+    mod model_exchange;
     mod ownership;
     mod random;
     mod resources;
