@@ -8,6 +8,7 @@ mod abi {
     mod exports;
     mod extremes;
     mod files;
+    mod fmu_state;
     mod input_derivatives;
     mod legality;
     mod logging;
@@ -16,6 +17,7 @@ mod abi {
     mod ownership;
     mod random;
     mod resources;
+    mod serialized;
     mod silence;
     mod values;
 }

@@ -65,18 +65,7 @@ fn ramped(instance: &Instance, steps: u32, is_smooth: bool) -> Vec<f64> {
             instance.take_log()
         );
     }
-    let names = [
-        "azimuth",
-        "state.rotorSpeed",
-        "state.inflow[1]",
-        "state.inflow[2]",
-    ];
-    let flaps = ["state.flapAngle[1]", "state.flapRate[2]"];
-    names
-        .iter()
-        .chain(&flaps)
-        .map(|name| instance.real(name))
-        .collect()
+    watched(instance)
 }
 
 fn distance(a: &[f64], b: &[f64]) -> f64 {
@@ -97,21 +86,48 @@ fn steps_along_a_ramp_converge_with_order_three_to_the_staircase_of_ever_shorter
         ("petersHe", false, true),
     ] {
         let fly = |steps, smooth| ramped(&running(inflow, flapping, is_driven), steps, smooth);
-        let exact = fly(1024, true);
-        let [coarse, fine] = [1024, 2048].map(|steps| distance(&fly(steps, false), &exact));
-        let errors = [64, 128, 256].map(|steps| distance(&fly(steps, true), &exact));
+        let limit = fly(1024, false);
+        let errors = [64, 128, 256].map(|steps| distance(&fly(steps, true), &limit));
         let orders = [0, 1].map(|i| (errors[i] / errors[i + 1]).log2());
-        println!("{inflow}: staircase {coarse:.1e} {fine:.1e}, ramp {errors:?}, orders {orders:?}");
+        let held = distance(&held(&running(inflow, flapping, is_driven), 256), &limit);
+        println!("{inflow}: {errors:?}, orders {orders:?}, held {held}");
+        // A difference in the limit itself would keep the errors from falling so.
         assert!(
-            (1.8..2.2).contains(&(coarse / fine).log2()),
-            "{inflow}: {coarse} {fine}"
-        );
-        assert!(errors[1] < coarse, "{inflow}: {errors:?} {coarse}");
-        assert!(
-            orders.iter().all(|o| (2.7..3.4).contains(o)),
+            orders.iter().all(|o| (2.7..3.7).contains(o)),
             "{inflow}: {orders:?}"
         );
+        // Constant inputs of the beginning of each step are far off.
+        assert!(errors[2] < 0.3 * held, "{inflow}: {errors:?} {held}");
     }
+}
+
+/// As `ramped` without derivatives and with the inputs of the beginning of each step.
+fn held(instance: &Instance, steps: u32) -> Vec<f64> {
+    let size = DURATION / f64::from(steps);
+    let starts = RAMP.map(|(name, _)| instance.real(name));
+    for i in 0..steps {
+        let begin = f64::from(i) * size;
+        for ((name, slope), start) in RAMP.into_iter().zip(starts) {
+            assert_eq!(instance.set_real(name, start + slope * begin), c::OK);
+        }
+        assert_eq!(instance.step(begin, size), c::OK);
+    }
+    watched(instance)
+}
+
+fn watched(instance: &Instance) -> Vec<f64> {
+    let names = [
+        "azimuth",
+        "state.rotorSpeed",
+        "state.inflow[1]",
+        "state.inflow[2]",
+    ];
+    let flaps = ["state.flapAngle[1]", "state.flapRate[2]"];
+    names
+        .iter()
+        .chain(&flaps)
+        .map(|name| instance.real(name))
+        .collect()
 }
 
 #[test]
