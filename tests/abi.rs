@@ -4,6 +4,7 @@ mod support;
 
 mod abi {
     mod arguments;
+    mod both_interfaces;
     mod course;
     mod exports;
     mod extremes;
