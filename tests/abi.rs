@@ -5,7 +5,9 @@ mod support;
 mod abi {
     mod arguments;
     mod both_interfaces;
+    mod capabilities;
     mod course;
+    mod dependencies;
     mod exports;
     mod extremes;
     mod files;
