@@ -154,10 +154,11 @@ fn row(table: &Table, v: &Variable) -> String {
         .map(|e| e.items.iter().map(|i| i.name.as_str()).collect())
         .unwrap_or_default();
     format!(
-        "Variable {{ name: {:?}, causality: Causality::{}, tunable: {}, unit: {:?}, start: {start}, min: {min}, max: {max}, choices: &{choices:?} }}",
+        "Variable {{ name: {:?}, causality: Causality::{}, tunable: {}, is_state: {}, unit: {:?}, start: {start}, min: {min}, max: {max}, choices: &{choices:?} }}",
         v.name,
         camel(&v.causality),
         v.variability() == "tunable",
+        v.nominal.is_some(),
         v.unit.as_deref().unwrap_or(""),
     )
 }

@@ -90,6 +90,7 @@ fn fmpy_finds_no_problem_and_describes_the_block() {
     for part in [
         "HelicopterRotor",
         "Co-Simulation",
+        "Model Exchange",
         "linux64",
         "collective",
         "Blade pitch",
@@ -134,6 +135,64 @@ fn a_communication_step_that_does_not_divide_the_time_is_met() {
     ]);
     let rows = csv(&fs::read_to_string(&file).unwrap());
     assert!(value(rows.last().unwrap(), "time") > 0.49);
+}
+
+#[test]
+fn fmpy_integrates_the_defaults_in_model_exchange() {
+    let file = scratch("model-exchange.csv");
+    fmpy(&[
+        "simulate",
+        "--interface-type",
+        "ModelExchange",
+        "--output-file",
+        file.to_str().unwrap(),
+    ]);
+    let rows = csv(&fs::read_to_string(&file).unwrap());
+    let (first, last) = (&rows[0], rows.last().unwrap());
+    assert_eq!(value(first, "thrust"), value(last, "thrust"));
+    let turned = 960.0 / 60.0 * 2.0 * std::f64::consts::PI * value(last, "time");
+    assert!((value(last, "azimuth") / turned - 1.0).abs() < 1e-3);
+}
+
+/// A manoeuvre with dynamic inflow, flapping blades and a torque that drives, along a ramp of nine inputs.
+#[test]
+fn fmpy_flies_the_same_manoeuvre_through_both_interfaces_and_goes_back_to_a_state() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/data");
+    let mut command = Command::new(python());
+    let words = run(command.arg(folder.join("both_interfaces.py")).arg(fmu()));
+    let numbers = |name: &str| -> Vec<f64> {
+        let mut lines = words.lines().filter_map(|line| line.strip_prefix(name));
+        let line = lines
+            .next()
+            .unwrap_or_else(|| panic!("no {name} in {words}"));
+        line.split_whitespace()
+            .map(|w| w.parse().unwrap())
+            .collect()
+    };
+    // Thrust, rotor speed, coning, azimuth, and the collective at the end.
+    let [integrated, held, moving, short] =
+        ["ModelExchange", "held", "moving", "shortSteps"].map(numbers);
+    for (i, part) in [(1, 1e-5), (2, 1e-4), (3, 1e-5)] {
+        let [exchange, held] = [integrated[i], held[i]];
+        assert!(
+            (exchange / held - 1.0).abs() < part,
+            "{i}: {exchange} {held}"
+        );
+    }
+    // FMPy gives no derivatives at the time 0, so that the first of the 40 steps is held.
+    for i in 0..4 {
+        let lag = (held[i] - short[i]).abs();
+        assert!(
+            (moving[i] - short[i]).abs() < 0.05 * lag,
+            "{i}: {moving:?} {held:?} {short:?}"
+        );
+    }
+    assert!((moving[4] - 0.2).abs() < 1e-12, "{}", moving[4]);
+    let [first, second] = numbers("state")[..] else {
+        panic!("{words}")
+    };
+    assert_eq!(first, second);
+    assert!(first > 50.0);
 }
 
 /// The bounds that the model is held to, against Knight & Hefner (1937), NACA TN 626, at 4 deg of

@@ -1,14 +1,23 @@
-//! A running simulation allocates no memory: setting and reading numbers, and steps.
+//! A running simulation allocates no memory: setting and reading numbers, steps, states and derivatives.
 
 use helicopter_rotor::{
-    block::variables::{GUID, INTEGERS, boolean, integer, real},
+    block::variables::{GUID, INTEGERS, STATES, boolean, integer, real},
     fmi2::{
-        co_simulation::fmi2DoStep,
+        co_simulation::{fmi2DoStep, fmi2SetRealInputDerivatives},
         common::{
-            fmi2EnterInitializationMode, fmi2ExitInitializationMode, fmi2FreeInstance, fmi2GetReal,
-            fmi2Instantiate, fmi2SetBoolean, fmi2SetInteger, fmi2SetReal,
+            fmi2EnterInitializationMode, fmi2ExitInitializationMode, fmi2FreeInstance,
+            fmi2Instantiate,
         },
-        types::{FMI2_CO_SIMULATION, fmi2Status},
+        model_exchange::{
+            fmi2CompletedIntegratorStep, fmi2EnterContinuousTimeMode, fmi2EnterEventMode,
+            fmi2GetContinuousStates, fmi2GetDerivatives, fmi2NewDiscreteStates,
+            fmi2SetContinuousStates, fmi2SetTime,
+        },
+        types::{
+            FMI2_CO_SIMULATION, FMI2_MODEL_EXCHANGE, fmi2Component, fmi2Enumeration, fmi2EventInfo,
+            fmi2Status,
+        },
+        values::{fmi2GetReal, fmi2SetBoolean, fmi2SetInteger, fmi2SetReal},
     },
 };
 use std::{
@@ -42,37 +51,38 @@ unsafe impl GlobalAlloc for Counting {
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
 
-#[test]
-fn steps_and_numbers_allocate_nothing() {
-    for model in INTEGERS[integer::MODEL__INFLOW].choices {
-        for flaps in [0, 1] {
-            if (*model, flaps) != ("annulusClosedForm", 1) {
-                steps_allocate_nothing(model, flaps);
-            }
-        }
-    }
+/// Every inflow model, with rigid and with flapping blades.
+fn rotors() -> Vec<(&'static str, i32)> {
+    let models = INTEGERS[integer::MODEL__INFLOW].choices.iter();
+    let all = models.flat_map(|model| [(*model, 0), (*model, 1)]);
+    all.filter(|rotor| *rotor != ("annulusClosedForm", 1))
+        .collect()
 }
 
-fn steps_allocate_nothing(model: &str, flaps: i32) {
+const INPUTS: [u32; 4] = [
+    real::COLLECTIVE as u32,
+    real::RPM as u32,
+    real::VELOCITY_1 as u32,
+    real::VELOCITY_3 as u32,
+];
+const OUTPUTS: [u32; 3] = [
+    real::THRUST as u32,
+    real::TORQUE as u32,
+    real::HUB_FORCE_1 as u32,
+];
+
+/// An initialised instance.
+fn instance(kind: fmi2Enumeration, (model, flaps): (&str, i32)) -> fmi2Component {
     let choices = INTEGERS[integer::MODEL__INFLOW].choices;
     let choice = choices.iter().position(|c| *c == model).unwrap() as i32 + 1;
     let name = CString::new("rotor").unwrap();
     let guid = CString::new(GUID).unwrap();
     let resources = concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/resources");
     let resources = CString::new(resources).unwrap();
-    let inputs = [
-        real::COLLECTIVE,
-        real::RPM,
-        real::VELOCITY_1,
-        real::VELOCITY_3,
-    ]
-    .map(|r| r as u32);
-    let outputs = [real::THRUST, real::TORQUE, real::HUB_FORCE_1].map(|r| r as u32);
-    let mut values = [0.0; 3];
     // SAFETY: the calls and their arguments are those of the standard.
     unsafe {
         let (name, guid, place) = (name.as_ptr(), guid.as_ptr(), resources.as_ptr());
-        let c = fmi2Instantiate(name, FMI2_CO_SIMULATION, guid, place, ptr::null(), 0, 0);
+        let c = fmi2Instantiate(name, kind, guid, place, ptr::null(), 0, 0);
         assert!(!c.is_null());
         let place = integer::MODEL__INFLOW as u32;
         assert_eq!(fmi2SetInteger(c, &place, 1, &choice), fmi2Status::fmi2OK);
@@ -80,22 +90,110 @@ fn steps_allocate_nothing(model: &str, flaps: i32) {
         assert_eq!(fmi2SetBoolean(c, &place, 1, &flaps), fmi2Status::fmi2OK);
         assert_eq!(fmi2EnterInitializationMode(c), fmi2Status::fmi2OK);
         assert_eq!(fmi2ExitInitializationMode(c), fmi2Status::fmi2OK);
-        let before = COUNT.with(Cell::get);
-        for i in 0..5 {
-            let x = f64::from(i);
-            let commands = [0.1 + 0.01 * x, 900.0 + x, 2.0 * x, 1.0];
-            let status = fmi2SetReal(c, inputs.as_ptr(), inputs.len(), commands.as_ptr());
-            assert_eq!(status, fmi2Status::fmi2OK);
-            assert_eq!(fmi2DoStep(c, 0.01 * x, 0.01, 1), fmi2Status::fmi2OK);
-            let status = fmi2GetReal(c, outputs.as_ptr(), outputs.len(), values.as_mut_ptr());
-            assert_eq!(status, fmi2Status::fmi2OK);
+        c
+    }
+}
+
+/// Sets inputs that differ from time to time.
+fn set_inputs(c: fmi2Component, i: i32) -> fmi2Status {
+    let x = f64::from(i);
+    let commands = [0.1 + 0.01 * x, 900.0 + x, 2.0 * x, 1.0];
+    // SAFETY: the instance lives, and the arrays are as long as is said.
+    unsafe { fmi2SetReal(c, INPUTS.as_ptr(), INPUTS.len(), commands.as_ptr()) }
+}
+
+/// Reads loads, of which the first is the thrust.
+fn thrust(c: fmi2Component) -> f64 {
+    let mut values = [0.0; 3];
+    // SAFETY: the instance lives, and the arrays are as long as is said.
+    let status = unsafe { fmi2GetReal(c, OUTPUTS.as_ptr(), OUTPUTS.len(), values.as_mut_ptr()) };
+    assert_eq!(status, fmi2Status::fmi2OK);
+    values[0]
+}
+
+/// How often a part of the test asks for memory.
+fn allocations(part: impl FnOnce()) -> u64 {
+    let before = COUNT.with(Cell::get);
+    part();
+    COUNT.with(Cell::get) - before
+}
+
+#[test]
+fn steps_and_numbers_allocate_nothing() {
+    for rotor in rotors() {
+        for is_moving in [false, true] {
+            let c = instance(FMI2_CO_SIMULATION, rotor);
+            let count = allocations(|| {
+                for i in 0..5 {
+                    assert_eq!(set_inputs(c, i), fmi2Status::fmi2OK);
+                    let (orders, slopes) = ([1; 4], [0.1, 20.0, 1.0, -1.0]);
+                    let (vr, n) = (INPUTS.as_ptr(), INPUTS.len());
+                    // SAFETY: the calls and their arguments are those of the standard.
+                    unsafe {
+                        if is_moving {
+                            let (orders, slopes) = (orders.as_ptr(), slopes.as_ptr());
+                            let status = fmi2SetRealInputDerivatives(c, vr, n, orders, slopes);
+                            assert_eq!(status, fmi2Status::fmi2OK);
+                        }
+                        let status = fmi2DoStep(c, 0.01 * f64::from(i), 0.01, 1);
+                        assert_eq!(status, fmi2Status::fmi2OK);
+                    }
+                    assert!(thrust(c).is_finite());
+                }
+            });
+            // SAFETY: it lives, and is not used afterwards.
+            unsafe { fmi2FreeInstance(c) };
+            assert_eq!(
+                count, 0,
+                "allocations in 5 steps of {rotor:?}, inputs move: {is_moving}"
+            );
         }
-        let count = COUNT.with(Cell::get) - before;
-        fmi2FreeInstance(c);
-        assert!(values[0] > 0.0);
-        assert_eq!(
-            count, 0,
-            "allocations in 5 steps of {model}, flapping {flaps}"
-        );
+    }
+}
+
+#[test]
+fn an_integration_by_the_importer_allocates_nothing() {
+    for rotor in rotors() {
+        let c = instance(FMI2_MODEL_EXCHANGE, rotor);
+        let mut info = fmi2EventInfo {
+            newDiscreteStatesNeeded: 1,
+            terminateSimulation: 1,
+            nominalsOfContinuousStatesChanged: 1,
+            valuesOfContinuousStatesChanged: 1,
+            nextEventTimeDefined: 1,
+            nextEventTime: 0.0,
+        };
+        let (mut x, mut rates) = ([0.0; STATES.len()], [0.0; STATES.len()]);
+        let (mut event, mut end) = (1, 1);
+        let n = STATES.len();
+        let count = allocations(|| {
+            for i in 0..5 {
+                // SAFETY: the calls and their arguments are those of the standard.
+                let statuses = unsafe {
+                    [
+                        fmi2NewDiscreteStates(c, &mut info),
+                        fmi2EnterContinuousTimeMode(c),
+                        fmi2GetContinuousStates(c, x.as_mut_ptr(), n),
+                        fmi2GetDerivatives(c, rates.as_mut_ptr(), n),
+                        fmi2SetTime(c, 1e-3 * f64::from(i + 1)),
+                        set_inputs(c, i),
+                        {
+                            let states = x.iter_mut().zip(&rates);
+                            states.for_each(|(x, rate)| *x += 1e-3 * rate);
+                            fmi2SetContinuousStates(c, x.as_ptr(), n)
+                        },
+                        fmi2GetDerivatives(c, rates.as_mut_ptr(), n),
+                        fmi2CompletedIntegratorStep(c, 1, &mut event, &mut end),
+                        fmi2EnterEventMode(c),
+                    ]
+                };
+                assert_eq!(statuses, [fmi2Status::fmi2OK; 10]);
+                assert!(thrust(c).is_finite());
+            }
+        });
+        // SAFETY: it lives, and is not used afterwards.
+        unsafe { fmi2FreeInstance(c) };
+        assert_eq!(count, 0, "allocations in 5 steps of {rotor:?}");
+        assert_eq!(info.newDiscreteStatesNeeded, 0);
     }
 }

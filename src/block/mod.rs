@@ -263,7 +263,7 @@ impl RotorBlock {
             .map_err(BlockError::from)
             .and_then(|flight| self.publish(&flight, memory));
         match published {
-            Ok(()) => self.course = Course::default(),
+            Ok(()) => self.course.slopes = [0.0; REALS.len()],
             Err(_) => self.values.reals = start,
         }
         published

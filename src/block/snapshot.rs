@@ -3,7 +3,6 @@
 use super::{
     BlockError, Fresh, RotorBlock,
     bytes::{Damage, Reader},
-    course::Course,
     integrate::{LONGEST_CELL, Memory, Since},
     setup,
     states::{from_vector, read_states, to_vector, write_states},
@@ -51,7 +50,6 @@ impl RotorBlock {
         }
         self.values.clone_from(&snapshot.values);
         self.stage = snapshot.stage;
-        self.course = Course::default();
         self.course.slopes = snapshot.slopes;
         self.memory = snapshot.memory;
         self.fresh = snapshot.fresh;

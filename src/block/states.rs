@@ -82,8 +82,9 @@ mod tests {
         for (row, name) in STATES.iter().zip(&names) {
             assert_eq!(REALS[row.place].name, name);
             assert_eq!(REALS[row.derivative].name, format!("der({name})"));
-            assert!(row.nominal > 0.0);
+            assert!(row.nominal > 0.0 && REALS[row.place].is_state);
         }
+        assert_eq!(REALS.iter().filter(|v| v.is_state).count(), STATES.len());
         assert_eq!(STATES.len(), names.len());
     }
 

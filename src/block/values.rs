@@ -44,7 +44,9 @@ pub enum ValueError {
     Fixed { name: &'static str, kept: String },
     #[error("{name} is a parameter and keeps {kept} between events; enter Event Mode to set it")]
     BetweenEvents { name: &'static str, kept: String },
-    #[error("{name} is a continuous state; it can be set in Continuous-Time Mode only")]
+    #[error(
+        "{name} is computed by the rotor; as a continuous state it can be set in Continuous-Time Mode only"
+    )]
     State { name: &'static str },
     #[error("{name} is no input; only inputs have a derivative that can be set")]
     NoInput { name: &'static str },

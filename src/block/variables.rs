@@ -21,6 +21,8 @@ pub struct Variable<T: 'static> {
     pub causality: Causality,
     /// Whether a parameter may change while the simulation runs.
     pub tunable: bool,
+    /// Whether it is a continuous state.
+    pub is_state: bool,
     /// Empty for what is not a Real.
     pub unit: &'static str,
     /// Value before anything is set.
@@ -57,9 +59,9 @@ pub fn is_computed<T>(table: &[Variable<T>], reference: u32) -> bool {
         .is_some_and(|v| v.causality.is_computed())
 }
 
-/// Whether a value reference is that of a continuous state.
+/// Whether a value reference of a Real is that of a continuous state.
 pub fn is_state(reference: u32) -> bool {
-    STATES.iter().any(|state| state.place == reference as usize)
+    REALS.get(reference as usize).is_some_and(|v| v.is_state)
 }
 
 include!(concat!(env!("OUT_DIR"), "/variables.rs"));

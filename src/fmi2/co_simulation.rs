@@ -3,6 +3,7 @@
 #![allow(non_snake_case)]
 
 use super::{
+    common::elements,
     instance::{Instance, Message, Outcome, call, refuse},
     legality::Function,
     not_offered::not_offered,
@@ -64,24 +65,37 @@ pub unsafe extern "C" fn fmi2CancelStep(c: fmi2Component) -> fmi2Status {
     unsafe { not_offered(c, Function::fmi2CancelStep, "canRunAsynchronuously = false") }
 }
 
+/// The derivatives hold for the next step: the standard says that inputs and their derivatives are set with
+/// respect to the beginning of a step. They are kept while steps are refused.
+///
 /// # Safety
-/// As in the standard.
+/// As in the standard: `vr`, `order` and `value` have `nvr` elements.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     c: fmi2Component,
-    _vr: *const fmi2ValueReference,
-    _nvr: usize,
-    _order: *const fmi2Integer,
-    _value: *const fmi2Real,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    order: *const fmi2Integer,
+    value: *const fmi2Real,
 ) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller.
+        let (vr, order, value) = unsafe {
+            (
+                elements(vr, nvr, "vr")?,
+                elements(order, nvr, "order")?,
+                elements(value, nvr, "value")?,
+            )
+        };
+        if let Some(other) = order.iter().find(|order| **order != 1) {
+            return refuse(format!(
+                "order = {other}; the inputs of this FMU move linearly, pass first derivatives (1)"
+            ));
+        }
+        Ok(instance.block.set_input_slopes(vr, value)?)
+    };
     // SAFETY: passed on from the caller.
-    unsafe {
-        not_offered(
-            c,
-            Function::fmi2SetRealInputDerivatives,
-            "canInterpolateInputs = false",
-        )
-    }
+    unsafe { call(c, Function::fmi2SetRealInputDerivatives, body) }
 }
 
 /// # Safety

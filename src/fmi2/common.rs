@@ -4,13 +4,13 @@
 
 use super::{
     instance::{Experiment, Instance, Message, call, refuse},
-    legality::{Function, INITIALIZATION_MODE, INSTANTIATED, STEP_COMPLETE, TERMINATED},
+    legality::{Function, INITIALIZATION_MODE, INSTANTIATED, Interface, TERMINATED},
     logger::{Category, Logger, printable},
     types::*,
 };
 use crate::block::{
-    RotorBlock, Values, path_from_uri,
-    variables::{GUID, INTEGERS, LOG_CATEGORIES, MODEL_IDENTIFIER, REALS, is_computed},
+    RotorBlock, path_from_uri,
+    variables::{GUID, LOG_CATEGORIES, MODEL_IDENTIFIER},
 };
 use core::ffi::{CStr, c_char};
 use std::{
@@ -66,7 +66,7 @@ pub unsafe fn elements_mut<'a, T>(
 ///
 /// # Safety
 /// `text` is null or a C string that lives as long as the answer.
-unsafe fn text<'a>(text: fmi2String, what: &str) -> Result<&'a str, Message> {
+pub unsafe fn text<'a>(text: fmi2String, what: &str) -> Result<&'a str, Message> {
     if text.is_null() {
         return Err(Message::Error(format!(
             "{what} is a null pointer; pass a string"
@@ -157,14 +157,18 @@ pub unsafe extern "C" fn fmi2Instantiate(
         };
         // SAFETY: passed on from the caller.
         let guid = unsafe { text(fmuGUID, "fmuGUID") };
-        if let Err(sentence) = check_identity(fmuType, guid) {
-            let sentence = format!("fmi2Instantiate: {sentence}");
-            logger.log(fmi2Status::fmi2Error, Category::Error, &sentence);
-            return ptr::null_mut();
-        }
+        let interface = match identity(fmuType, guid) {
+            Ok(interface) => interface,
+            Err(sentence) => {
+                let sentence = format!("fmi2Instantiate: {sentence}");
+                logger.log(fmi2Status::fmi2Error, Category::Error, &sentence);
+                return ptr::null_mut();
+            }
+        };
         // SAFETY: passed on from the caller.
         let location = unsafe { text(fmuResourceLocation, "fmuResourceLocation") }.ok();
         let instance = Instance {
+            interface,
             state: INSTANTIATED,
             block: RotorBlock::new(resources(location)),
             logger,
@@ -176,7 +180,8 @@ pub unsafe extern "C" fn fmi2Instantiate(
     catch_unwind(AssertUnwindSafe(body)).unwrap_or(ptr::null_mut())
 }
 
-fn check_identity(kind: fmi2Enumeration, guid: Result<&str, Message>) -> Result<(), String> {
+/// The interface that is asked of this FMU and no other.
+fn identity(kind: fmi2Enumeration, guid: Result<&str, Message>) -> Result<Interface, String> {
     let guid = guid.map_err(|message| match message {
         Message::Error(text) | Message::Warning(text) => text,
     })?;
@@ -185,12 +190,9 @@ fn check_identity(kind: fmi2Enumeration, guid: Result<&str, Message>) -> Result<
             "the GUID {guid:?} is not that of this binary, {GUID}; modelDescription.xml and binary must come from the same .fmu"
         ));
     }
-    if kind != FMI2_CO_SIMULATION {
-        return Err(
-            "this FMU offers Co-Simulation only; instantiate it with fmi2CoSimulation".into(),
-        );
-    }
-    Ok(())
+    Interface::from_type(kind).ok_or_else(|| {
+        format!("fmuType = {kind} is none; pass fmi2ModelExchange (0) or fmi2CoSimulation (1)")
+    })
 }
 
 /// A folder that our resources have.
@@ -311,7 +313,7 @@ pub unsafe extern "C" fn fmi2EnterInitializationMode(c: fmi2Component) -> fmi2St
 pub unsafe extern "C" fn fmi2ExitInitializationMode(c: fmi2Component) -> fmi2Status {
     let body = |instance: &mut Instance| {
         instance.block.start()?;
-        instance.state = STEP_COMPLETE;
+        instance.state = instance.initialized();
         Ok(())
     };
     // SAFETY: passed on from the caller.
@@ -342,172 +344,4 @@ pub unsafe extern "C" fn fmi2Reset(c: fmi2Component) -> fmi2Status {
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2Reset, body) }
-}
-
-// ------------------------------------------------------------------ values of variables
-
-/// # Safety
-/// As in the standard: `vr` and `value` have `nvr` elements.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetReal(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    value: *mut fmi2Real,
-) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        // SAFETY: passed on from the caller.
-        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
-        if vr.iter().any(|reference| is_computed(&REALS, *reference)) {
-            instance.refresh_while_initializing()?;
-        }
-        Ok(instance.block.values().read_reals(vr, value)?)
-    };
-    // SAFETY: passed on from the caller.
-    unsafe { call(c, Function::fmi2GetReal, body) }
-}
-
-/// # Safety
-/// As in the standard: `vr` and `value` have `nvr` elements.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetInteger(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    value: *mut fmi2Integer,
-) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        // SAFETY: passed on from the caller.
-        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
-        if vr
-            .iter()
-            .any(|reference| is_computed(&INTEGERS, *reference))
-        {
-            instance.refresh_while_initializing()?;
-        }
-        Ok(instance.block.values().read_integers(vr, value)?)
-    };
-    // SAFETY: passed on from the caller.
-    unsafe { call(c, Function::fmi2GetInteger, body) }
-}
-
-/// # Safety
-/// As in the standard: `vr` and `value` have `nvr` elements.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetBoolean(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    value: *mut fmi2Boolean,
-) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        // SAFETY: passed on from the caller.
-        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
-        Ok(instance.block.values().read_booleans(vr, value)?)
-    };
-    // SAFETY: passed on from the caller.
-    unsafe { call(c, Function::fmi2GetBoolean, body) }
-}
-
-/// # Safety
-/// As in the standard: `vr` and `value` have `nvr` elements.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetString(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    value: *mut fmi2String,
-) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        // SAFETY: passed on from the caller.
-        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
-        for (reference, slot) in vr.iter().zip(value) {
-            let place = Values::string_place(*reference)?;
-            let kept = &mut instance.strings[place];
-            // An unchanged text keeps its address, also where one call names it twice.
-            let present = &instance.block.values().strings[place];
-            if kept.as_bytes() != present.as_bytes() {
-                *kept = printable(present);
-            }
-            *slot = kept.as_ptr();
-        }
-        Ok(())
-    };
-    // SAFETY: passed on from the caller.
-    unsafe { call(c, Function::fmi2GetString, body) }
-}
-
-/// # Safety
-/// As in the standard: `vr` and `value` have `nvr` elements.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetReal(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    value: *const fmi2Real,
-) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        // SAFETY: passed on from the caller.
-        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements(value, nvr, "value")?) };
-        Ok(instance.block.set_reals(vr, value)?)
-    };
-    // SAFETY: passed on from the caller.
-    unsafe { call(c, Function::fmi2SetReal, body) }
-}
-
-/// # Safety
-/// As in the standard: `vr` and `value` have `nvr` elements.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetInteger(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    value: *const fmi2Integer,
-) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        // SAFETY: passed on from the caller.
-        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements(value, nvr, "value")?) };
-        Ok(instance.block.set_integers(vr, value)?)
-    };
-    // SAFETY: passed on from the caller.
-    unsafe { call(c, Function::fmi2SetInteger, body) }
-}
-
-/// # Safety
-/// As in the standard: `vr` and `value` have `nvr` elements.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetBoolean(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    value: *const fmi2Boolean,
-) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        // SAFETY: passed on from the caller.
-        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements(value, nvr, "value")?) };
-        Ok(instance.block.set_booleans(vr, value)?)
-    };
-    // SAFETY: passed on from the caller.
-    unsafe { call(c, Function::fmi2SetBoolean, body) }
-}
-
-/// # Safety
-/// As in the standard: `vr` and `value` have `nvr` elements, C strings the latter.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetString(
-    c: fmi2Component,
-    vr: *const fmi2ValueReference,
-    nvr: usize,
-    value: *const fmi2String,
-) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        // SAFETY: passed on from the caller.
-        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements(value, nvr, "value")?) };
-        // SAFETY: passed on from the caller.
-        let texts = value.iter().map(|v| unsafe { text(*v, "a value") });
-        let texts = texts.collect::<Result<Vec<&str>, Message>>()?;
-        Ok(instance.block.set_strings(vr, &texts)?)
-    };
-    // SAFETY: passed on from the caller.
-    unsafe { call(c, Function::fmi2SetString, body) }
 }

@@ -1,7 +1,7 @@
 //! One instance of the FMU, and the frame in which every function of the interface runs.
 
 use super::{
-    legality::{Function, INITIALIZATION_MODE, States},
+    legality::{EVENT_MODE, Function, INITIALIZATION_MODE, Interface, STEP_COMPLETE, States},
     logger::{Category, Logger},
     types::{fmi2Component, fmi2Status},
 };
@@ -13,6 +13,7 @@ use std::{
 };
 
 pub struct Instance {
+    pub interface: Interface,
     pub state: States,
     pub block: RotorBlock,
     pub logger: Logger,
@@ -49,12 +50,21 @@ pub fn refuse(text: String) -> Outcome {
 }
 
 impl Instance {
-    /// Outputs that are read in Initialization Mode belong to what was set before.
-    pub fn refresh_while_initializing(&mut self) -> Result<(), BlockError> {
-        if self.state == INITIALIZATION_MODE {
+    /// What is read in Initialization Mode or in Model Exchange belongs to what was set before; in Co-Simulation
+    /// it belongs to the last step.
+    pub fn refresh(&mut self) -> Result<(), BlockError> {
+        if self.state == INITIALIZATION_MODE || self.interface == Interface::ModelExchange {
             self.block.update()
         } else {
             Ok(())
+        }
+    }
+
+    /// The state after the initialisation.
+    pub fn initialized(&self) -> States {
+        match self.interface {
+            Interface::CoSimulation => STEP_COMPLETE,
+            Interface::ModelExchange => EVENT_MODE,
         }
     }
 }
@@ -77,7 +87,9 @@ pub unsafe fn call(
         // SAFETY: not null, and by the contract above the only reference to a living instance. It
         // ends before the logger runs, which may call back into this library.
         let instance = unsafe { &mut *instance };
-        function.check(instance.state).map_err(Message::Error)?;
+        function
+            .check(instance.interface, instance.state)
+            .map_err(Message::Error)?;
         body(instance)
     }))
     .unwrap_or_else(|panic| {

@@ -1,9 +1,39 @@
-//! Which function may be called in which state: the table of the standard's section 4.2.4
-//! (Co-Simulation), one bit mask for each function.
+//! Which function may be called in which state: the tables of the standard's sections 4.2.4
+//! (Co-Simulation) and 3.2.3 (Model Exchange), one bit mask for each function and interface.
 //!
 //! An error does not change the state here, so that the states "error" and "fatal" are never
 //! entered; nor are those of a step that runs on, fails or is cancelled, because a step is done
 //! or refused within the call of fmi2DoStep.
+//!
+//! Where the tables have conditions on the variable, the block keeps them: what may be set when
+//! (`block::Stage`). fmi2SetTime in Event Mode is for FMUs without continuous states only.
+
+use super::types::{FMI2_CO_SIMULATION, FMI2_MODEL_EXCHANGE, fmi2Enumeration};
+
+/// The interface for which an instance was made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Interface {
+    CoSimulation,
+    ModelExchange,
+}
+
+impl Interface {
+    /// The interface behind an `fmi2Type`.
+    pub fn from_type(kind: fmi2Enumeration) -> Option<Self> {
+        match kind {
+            FMI2_CO_SIMULATION => Some(Self::CoSimulation),
+            FMI2_MODEL_EXCHANGE => Some(Self::ModelExchange),
+            _ => None,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        match self {
+            Self::CoSimulation => "Co-Simulation",
+            Self::ModelExchange => "Model Exchange",
+        }
+    }
+}
 
 /// A set of states.
 pub type States = u16;
@@ -11,30 +41,44 @@ pub type States = u16;
 pub const START_AND_END: States = 1 << 0;
 pub const INSTANTIATED: States = 1 << 1;
 pub const INITIALIZATION_MODE: States = 1 << 2;
-pub const STEP_COMPLETE: States = 1 << 3;
-pub const STEP_IN_PROGRESS: States = 1 << 4;
-pub const STEP_FAILED: States = 1 << 5;
-pub const STEP_CANCELED: States = 1 << 6;
-pub const TERMINATED: States = 1 << 7;
+pub const TERMINATED: States = 1 << 3;
+// Of Co-Simulation:
+pub const STEP_COMPLETE: States = 1 << 4;
+pub const STEP_IN_PROGRESS: States = 1 << 5;
+pub const STEP_FAILED: States = 1 << 6;
+pub const STEP_CANCELED: States = 1 << 7;
+// Of Model Exchange:
+pub const EVENT_MODE: States = 1 << 8;
+pub const CONTINUOUS_TIME_MODE: States = 1 << 9;
 
 const NEVER: States = 0;
-const INSTANCE_AT_REST: States =
+
+// Sets of states in Co-Simulation.
+const AT_REST: States =
     INSTANTIATED | INITIALIZATION_MODE | STEP_COMPLETE | STEP_FAILED | STEP_CANCELED | TERMINATED;
-const INSTANCE: States = INSTANCE_AT_REST | STEP_IN_PROGRESS;
-const ANYWHERE: States = START_AND_END | INSTANCE;
+const ALIVE: States = AT_REST | STEP_IN_PROGRESS;
 const READ: States = INITIALIZATION_MODE | STEP_COMPLETE | STEP_FAILED | STEP_CANCELED | TERMINATED;
 const WRITE: States = INSTANTIATED | INITIALIZATION_MODE | STEP_COMPLETE;
 const STATUS: States = STEP_COMPLETE | STEP_IN_PROGRESS | STEP_FAILED | TERMINATED;
+const STEPPED: States = STEP_COMPLETE | STEP_FAILED | STEP_CANCELED | TERMINATED;
+
+// Sets of states in Model Exchange.
+const MODES: States = EVENT_MODE | CONTINUOUS_TIME_MODE;
+const ME_ALIVE: States = INSTANTIATED | INITIALIZATION_MODE | MODES | TERMINATED;
+const ME_READ: States = INITIALIZATION_MODE | MODES | TERMINATED;
+const ME_WRITE: States = INSTANTIATED | INITIALIZATION_MODE | EVENT_MODE;
 
 macro_rules! functions {
-    ($($name:ident: $states:expr,)*) => {
+    ($($name:ident: $co_simulation:expr, $model_exchange:expr;)*) => {
         /// The functions of fmi2Functions.h.
         #[allow(non_camel_case_types)]
         #[derive(Debug, Clone, Copy, PartialEq, Eq)]
         pub enum Function { $($name,)* }
 
-        /// Every function with the states in which it may be called.
-        pub const TABLE: &[(Function, States)] = &[$((Function::$name, $states),)*];
+        /// Every function with the states in which it may be called in Co-Simulation and in Model
+        /// Exchange.
+        pub const TABLE: &[(Function, States, States)] =
+            &[$((Function::$name, $co_simulation, $model_exchange),)*];
 
         impl Function {
             /// The function's name in C.
@@ -46,72 +90,83 @@ macro_rules! functions {
 }
 
 functions! {
-    fmi2GetTypesPlatform: ANYWHERE,
-    fmi2GetVersion: ANYWHERE,
-    fmi2SetDebugLogging: INSTANCE,
-    fmi2Instantiate: START_AND_END,
-    fmi2FreeInstance: INSTANCE_AT_REST,
-    fmi2SetupExperiment: INSTANTIATED,
-    fmi2EnterInitializationMode: INSTANTIATED,
-    fmi2ExitInitializationMode: INITIALIZATION_MODE,
-    fmi2Terminate: STEP_COMPLETE | STEP_FAILED,
-    fmi2Reset: INSTANCE_AT_REST,
-    fmi2GetReal: READ,
-    fmi2GetInteger: READ,
-    fmi2GetBoolean: READ,
-    fmi2GetString: READ,
-    fmi2SetReal: WRITE,
-    fmi2SetInteger: WRITE,
-    fmi2SetBoolean: WRITE,
-    fmi2SetString: WRITE,
-    fmi2GetFMUstate: INSTANCE_AT_REST,
-    fmi2SetFMUstate: INSTANCE_AT_REST,
-    fmi2FreeFMUstate: INSTANCE_AT_REST,
-    fmi2SerializedFMUstateSize: INSTANCE_AT_REST,
-    fmi2SerializeFMUstate: INSTANCE_AT_REST,
-    fmi2DeSerializeFMUstate: INSTANCE_AT_REST,
-    fmi2GetDirectionalDerivative: READ,
-    // Co-Simulation
-    fmi2SetRealInputDerivatives: WRITE,
-    fmi2GetRealOutputDerivatives: STEP_COMPLETE | STEP_FAILED | STEP_CANCELED | TERMINATED,
-    fmi2DoStep: STEP_COMPLETE,
-    fmi2CancelStep: STEP_IN_PROGRESS,
-    fmi2GetStatus: STATUS,
-    fmi2GetRealStatus: STATUS,
-    fmi2GetIntegerStatus: STATUS,
-    fmi2GetBooleanStatus: STATUS,
-    fmi2GetStringStatus: STATUS,
-    // Model Exchange, which this FMU does not offer
-    fmi2EnterEventMode: NEVER,
-    fmi2NewDiscreteStates: NEVER,
-    fmi2EnterContinuousTimeMode: NEVER,
-    fmi2CompletedIntegratorStep: NEVER,
-    fmi2SetTime: NEVER,
-    fmi2SetContinuousStates: NEVER,
-    fmi2GetDerivatives: NEVER,
-    fmi2GetEventIndicators: NEVER,
-    fmi2GetContinuousStates: NEVER,
-    fmi2GetNominalsOfContinuousStates: NEVER,
+    // Function: Co-Simulation, Model Exchange;
+    fmi2GetTypesPlatform: START_AND_END | ALIVE, START_AND_END | ME_ALIVE;
+    fmi2GetVersion: START_AND_END | ALIVE, START_AND_END | ME_ALIVE;
+    fmi2SetDebugLogging: ALIVE, ME_ALIVE;
+    fmi2Instantiate: START_AND_END, START_AND_END;
+    fmi2FreeInstance: AT_REST, ME_ALIVE;
+    fmi2SetupExperiment: INSTANTIATED, INSTANTIATED;
+    fmi2EnterInitializationMode: INSTANTIATED, INSTANTIATED;
+    fmi2ExitInitializationMode: INITIALIZATION_MODE, INITIALIZATION_MODE;
+    fmi2Terminate: STEP_COMPLETE | STEP_FAILED, MODES;
+    fmi2Reset: AT_REST, ME_ALIVE;
+    fmi2GetReal: READ, ME_READ;
+    fmi2GetInteger: READ, ME_READ;
+    fmi2GetBoolean: READ, ME_READ;
+    fmi2GetString: READ, ME_READ;
+    fmi2SetReal: WRITE, ME_WRITE | CONTINUOUS_TIME_MODE;
+    fmi2SetInteger: WRITE, ME_WRITE;
+    fmi2SetBoolean: WRITE, ME_WRITE;
+    fmi2SetString: WRITE, ME_WRITE;
+    fmi2GetFMUstate: AT_REST, ME_ALIVE;
+    fmi2SetFMUstate: AT_REST, ME_ALIVE;
+    fmi2FreeFMUstate: AT_REST, ME_ALIVE;
+    fmi2SerializedFMUstateSize: AT_REST, ME_ALIVE;
+    fmi2SerializeFMUstate: AT_REST, ME_ALIVE;
+    fmi2DeSerializeFMUstate: AT_REST, ME_ALIVE;
+    fmi2GetDirectionalDerivative: READ, ME_READ;
+    // Co-Simulation only
+    fmi2SetRealInputDerivatives: WRITE, NEVER;
+    fmi2GetRealOutputDerivatives: STEPPED, NEVER;
+    fmi2DoStep: STEP_COMPLETE, NEVER;
+    fmi2CancelStep: STEP_IN_PROGRESS, NEVER;
+    fmi2GetStatus: STATUS, NEVER;
+    fmi2GetRealStatus: STATUS, NEVER;
+    fmi2GetIntegerStatus: STATUS, NEVER;
+    fmi2GetBooleanStatus: STATUS, NEVER;
+    fmi2GetStringStatus: STATUS, NEVER;
+    // Model Exchange only
+    fmi2EnterEventMode: NEVER, MODES;
+    fmi2NewDiscreteStates: NEVER, EVENT_MODE;
+    fmi2EnterContinuousTimeMode: NEVER, EVENT_MODE;
+    fmi2CompletedIntegratorStep: NEVER, CONTINUOUS_TIME_MODE;
+    fmi2SetTime: NEVER, CONTINUOUS_TIME_MODE;
+    fmi2SetContinuousStates: NEVER, CONTINUOUS_TIME_MODE;
+    fmi2GetDerivatives: NEVER, ME_READ;
+    fmi2GetEventIndicators: NEVER, ME_READ;
+    fmi2GetContinuousStates: NEVER, ME_READ;
+    fmi2GetNominalsOfContinuousStates: NEVER, ME_ALIVE;
 }
 
 impl Function {
-    fn states(self) -> States {
-        TABLE
-            .iter()
-            .find(|(function, _)| *function == self)
-            .map_or(NEVER, |(_, states)| *states)
+    fn states(self, interface: Interface) -> States {
+        let row = TABLE.iter().find(|(function, _, _)| *function == self);
+        row.map_or(
+            NEVER,
+            |(_, co_simulation, model_exchange)| match interface {
+                Interface::CoSimulation => *co_simulation,
+                Interface::ModelExchange => *model_exchange,
+            },
+        )
     }
 
     /// Whether the function may be called in a state; if not, a sentence with the remedy.
-    pub fn check(self, state: States) -> Result<(), String> {
-        let legal = self.states();
+    pub fn check(self, interface: Interface, state: States) -> Result<(), String> {
+        let legal = self.states(interface);
         if legal & state != 0 {
             return Ok(());
         }
         let name = self.name();
         if legal == NEVER {
+            let other = match interface {
+                Interface::CoSimulation => Interface::ModelExchange,
+                Interface::ModelExchange => Interface::CoSimulation,
+            };
             return Err(format!(
-                "{name} belongs to Model Exchange, which this FMU does not offer; use it for Co-Simulation"
+                "{name} belongs to {}, but the instance was made for {}; make one for the other",
+                other.name(),
+                interface.name()
             ));
         }
         Err(format!(
@@ -128,6 +183,8 @@ fn names(states: States) -> String {
         (START_AND_END, "without an instance"),
         (INSTANTIATED, "instantiated"),
         (INITIALIZATION_MODE, "Initialization Mode"),
+        (EVENT_MODE, "Event Mode"),
+        (CONTINUOUS_TIME_MODE, "Continuous-Time Mode"),
         (STEP_COMPLETE, "stepComplete"),
         (STEP_IN_PROGRESS, "stepInProgress"),
         (STEP_FAILED, "stepFailed"),
@@ -149,23 +206,30 @@ mod tests {
     #[test]
     fn the_table_has_every_function_once() {
         assert_eq!(TABLE.len(), 44);
-        for (i, (function, _)) in TABLE.iter().enumerate() {
+        for (i, (function, _, _)) in TABLE.iter().enumerate() {
             assert_eq!(*function as usize, i);
         }
     }
 
     #[test]
     fn a_refusal_names_the_function_the_state_and_the_legal_states() {
-        let error = Function::fmi2DoStep.check(INSTANTIATED).unwrap_err();
+        let refusal =
+            |function: Function, interface, state| function.check(interface, state).unwrap_err();
         assert_eq!(
-            error,
+            refusal(Function::fmi2DoStep, Interface::CoSimulation, INSTANTIATED),
             "fmi2DoStep must not be called in the state instantiated; it may be called in stepComplete"
         );
-        assert!(
-            Function::fmi2SetTime
-                .check(STEP_COMPLETE)
-                .unwrap_err()
-                .contains("Model Exchange")
+        assert_eq!(
+            refusal(
+                Function::fmi2SetTime,
+                Interface::CoSimulation,
+                STEP_COMPLETE
+            ),
+            "fmi2SetTime belongs to Model Exchange, but the instance was made for Co-Simulation; make one for the other"
+        );
+        assert_eq!(
+            refusal(Function::fmi2SetTime, Interface::ModelExchange, EVENT_MODE),
+            "fmi2SetTime must not be called in the state Event Mode; it may be called in Continuous-Time Mode"
         );
     }
 }

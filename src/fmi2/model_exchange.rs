@@ -1,126 +1,222 @@
 //! The functions of Model Exchange: fmi2Functions.h, "Functions for FMI2 for Model Exchange".
 //!
-//! This FMU does not offer that interface: by the table of legality every call is refused.
+//! The importer integrates. There is no equation in which time itself stands, and no event indicator: what is
+//! discrete (`flowState`) asks for its event after a completed step.
 
 #![allow(non_snake_case)]
 
 use super::{
-    instance::{call, refuse},
-    legality::Function,
+    common::{elements, elements_mut},
+    instance::{Instance, Message, Outcome, call, refuse},
+    legality::{CONTINUOUS_TIME_MODE, EVENT_MODE, Function},
     types::*,
 };
+use crate::block::variables::STATES;
+
+// ------------------------------------------------------------------ modes
 
 /// # Safety
-/// As `call`.
-unsafe fn refused(c: fmi2Component, function: Function) -> fmi2Status {
-    // SAFETY: passed on from the caller.
-    unsafe { call(c, function, |_| refuse("not offered by this FMU".into())) }
-}
-
-/// # Safety
-/// As in the standard.
+/// As in the standard: `c` from fmi2Instantiate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterEventMode(c: fmi2Component) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        instance.block.begin_event();
+        instance.state = EVENT_MODE;
+        Ok(())
+    };
     // SAFETY: passed on from the caller.
-    unsafe { refused(c, Function::fmi2EnterEventMode) }
+    unsafe { call(c, Function::fmi2EnterEventMode, body) }
 }
 
 /// # Safety
-/// As in the standard.
+/// As in the standard: `info` may be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2NewDiscreteStates(
     c: fmi2Component,
-    _info: *mut fmi2EventInfo,
+    info: *mut fmi2EventInfo,
 ) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        if info.is_null() {
+            return refuse("eventInfo is a null pointer; pass a place for the answer".into());
+        }
+        instance.block.update()?;
+        let answer = fmi2EventInfo {
+            newDiscreteStatesNeeded: FMI2_FALSE,
+            terminateSimulation: FMI2_FALSE,
+            nominalsOfContinuousStatesChanged: FMI2_FALSE,
+            valuesOfContinuousStatesChanged: FMI2_FALSE,
+            nextEventTimeDefined: FMI2_FALSE,
+            nextEventTime: 0.0,
+        };
+        // SAFETY: passed on from the caller; what stood there before is not looked at.
+        unsafe { info.write(answer) };
+        Ok(())
+    };
     // SAFETY: passed on from the caller.
-    unsafe { refused(c, Function::fmi2NewDiscreteStates) }
+    unsafe { call(c, Function::fmi2NewDiscreteStates, body) }
 }
 
 /// # Safety
-/// As in the standard.
+/// As in the standard: `c` from fmi2Instantiate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(c: fmi2Component) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        instance.block.begin_integration()?;
+        instance.state = CONTINUOUS_TIME_MODE;
+        Ok(())
+    };
     // SAFETY: passed on from the caller.
-    unsafe { refused(c, Function::fmi2EnterContinuousTimeMode) }
+    unsafe { call(c, Function::fmi2EnterContinuousTimeMode, body) }
 }
 
 /// # Safety
-/// As in the standard.
+/// As in the standard: the two answers may be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
     c: fmi2Component,
     _noSetFMUStatePriorToCurrentPoint: fmi2Boolean,
-    _enterEventMode: *mut fmi2Boolean,
-    _terminateSimulation: *mut fmi2Boolean,
+    enterEventMode: *mut fmi2Boolean,
+    terminateSimulation: *mut fmi2Boolean,
 ) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        if enterEventMode.is_null() || terminateSimulation.is_null() {
+            return refuse(
+                "enterEventMode or terminateSimulation is a null pointer; pass places for the answers"
+                    .into(),
+            );
+        }
+        let has_event = instance.block.has_event()?;
+        // SAFETY: passed on from the caller; what stood there before is not looked at.
+        unsafe {
+            enterEventMode.write(has_event.into());
+            terminateSimulation.write(FMI2_FALSE);
+        }
+        Ok(())
+    };
     // SAFETY: passed on from the caller.
-    unsafe { refused(c, Function::fmi2CompletedIntegratorStep) }
+    unsafe { call(c, Function::fmi2CompletedIntegratorStep, body) }
 }
 
+// ------------------------------------------------------------------ time and states
+
 /// # Safety
-/// As in the standard.
+/// As in the standard: `c` from fmi2Instantiate.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2SetTime(c: fmi2Component, _time: fmi2Real) -> fmi2Status {
+pub unsafe extern "C" fn fmi2SetTime(c: fmi2Component, time: fmi2Real) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        if !time.is_finite() {
+            return refuse(format!("time = {time} is not finite; pass a finite time"));
+        }
+        instance.experiment.time = time;
+        Ok(())
+    };
     // SAFETY: passed on from the caller.
-    unsafe { refused(c, Function::fmi2SetTime) }
+    unsafe { call(c, Function::fmi2SetTime, body) }
+}
+
+/// An error if an importer has another number of `what` than this FMU.
+fn check_count(given: usize, count: usize, what: &str) -> Outcome {
+    if given == count {
+        return Ok(());
+    }
+    refuse(format!(
+        "room for {given} {what} is announced, but this FMU has {count}; pass that number"
+    ))
 }
 
 /// # Safety
-/// As in the standard.
+/// As in the standard: `x` has `nx` elements.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetContinuousStates(
     c: fmi2Component,
-    _x: *const fmi2Real,
-    _nx: usize,
+    x: *const fmi2Real,
+    nx: usize,
 ) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        check_count(nx, STATES.len(), "continuous states")?;
+        // SAFETY: passed on from the caller.
+        let x = unsafe { elements(x, nx, "x")? };
+        Ok(instance.block.set_states(x)?)
+    };
     // SAFETY: passed on from the caller.
-    unsafe { refused(c, Function::fmi2SetContinuousStates) }
+    unsafe { call(c, Function::fmi2SetContinuousStates, body) }
 }
 
 /// # Safety
-/// As in the standard.
+/// As in the standard: `x` has `nx` elements.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetContinuousStates(
+    c: fmi2Component,
+    x: *mut fmi2Real,
+    nx: usize,
+) -> fmi2Status {
+    let answer = |instance: &mut Instance, x: &mut [f64]| Ok(instance.block.states(x)?);
+    // SAFETY: passed on from the caller.
+    unsafe { state_vector(c, Function::fmi2GetContinuousStates, x, nx, answer) }
+}
+
+/// # Safety
+/// As in the standard: `derivatives` has `nx` elements.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetDerivatives(
     c: fmi2Component,
-    _derivatives: *mut fmi2Real,
-    _nx: usize,
+    derivatives: *mut fmi2Real,
+    nx: usize,
 ) -> fmi2Status {
+    let answer = |instance: &mut Instance, out: &mut [f64]| Ok(instance.block.derivatives(out)?);
     // SAFETY: passed on from the caller.
-    unsafe { refused(c, Function::fmi2GetDerivatives) }
+    unsafe { state_vector(c, Function::fmi2GetDerivatives, derivatives, nx, answer) }
 }
 
 /// # Safety
-/// As in the standard.
+/// As in the standard: `x_nominal` has `nx` elements.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(
+    c: fmi2Component,
+    x_nominal: *mut fmi2Real,
+    nx: usize,
+) -> fmi2Status {
+    let answer = |_: &mut Instance, out: &mut [f64]| {
+        for (slot, state) in out.iter_mut().zip(&STATES) {
+            *slot = state.nominal;
+        }
+        Ok(())
+    };
+    let function = Function::fmi2GetNominalsOfContinuousStates;
+    // SAFETY: passed on from the caller.
+    unsafe { state_vector(c, function, x_nominal, nx, answer) }
+}
+
+/// Answers with one number for each continuous state.
+///
+/// # Safety
+/// As `call`; `out` has `count` elements.
+unsafe fn state_vector(
+    c: fmi2Component,
+    function: Function,
+    out: *mut fmi2Real,
+    count: usize,
+    answer: impl FnOnce(&mut Instance, &mut [f64]) -> Result<(), Message>,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        check_count(count, STATES.len(), "continuous states")?;
+        // SAFETY: passed on from the caller.
+        let out = unsafe { elements_mut(out, count, "the vector for the answer")? };
+        answer(instance, out)
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, function, body) }
+}
+
+/// # Safety
+/// As in the standard; this FMU has no event indicators.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetEventIndicators(
     c: fmi2Component,
     _eventIndicators: *mut fmi2Real,
-    _ni: usize,
+    ni: usize,
 ) -> fmi2Status {
+    let body = |_: &mut Instance| check_count(ni, 0, "event indicators");
     // SAFETY: passed on from the caller.
-    unsafe { refused(c, Function::fmi2GetEventIndicators) }
-}
-
-/// # Safety
-/// As in the standard.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetContinuousStates(
-    c: fmi2Component,
-    _x: *mut fmi2Real,
-    _nx: usize,
-) -> fmi2Status {
-    // SAFETY: passed on from the caller.
-    unsafe { refused(c, Function::fmi2GetContinuousStates) }
-}
-
-/// # Safety
-/// As in the standard.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(
-    c: fmi2Component,
-    _x_nominal: *mut fmi2Real,
-    _nx: usize,
-) -> fmi2Status {
-    // SAFETY: passed on from the caller.
-    unsafe { refused(c, Function::fmi2GetNominalsOfContinuousStates) }
+    unsafe { call(c, Function::fmi2GetEventIndicators, body) }
 }

@@ -17,6 +17,7 @@ pub type fmi2Byte = c_char;
 pub type fmi2Enumeration = c_int;
 
 /// `fmi2Type`.
+pub const FMI2_MODEL_EXCHANGE: fmi2Enumeration = 0;
 pub const FMI2_CO_SIMULATION: fmi2Enumeration = 1;
 
 /// `fmi2StatusKind`.

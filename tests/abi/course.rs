@@ -118,6 +118,29 @@ fn inputs_may_be_set_before_the_experiment_is_set_up_and_setting_it_up_may_be_le
 }
 
 #[test]
+fn model_exchange_needs_no_experiment_either_and_resets_to_every_default() {
+    let fresh = Instance::for_model_exchange();
+    fresh.begin_integration();
+    let instance = Instance::for_model_exchange();
+    assert_eq!(instance.set_real("collective", 0.2), c::OK);
+    assert_eq!(instance.enter_initialization(), c::OK);
+    assert_eq!(instance.exit_initialization(), c::OK);
+    assert_eq!(instance.enter_continuous_time(), c::OK);
+    assert_eq!(instance.set_time(3.0), c::OK);
+    let mut x = instance.states();
+    x[0] = 7.0;
+    assert_eq!(instance.set_states(&x), c::OK);
+    assert_ne!(bits(&instance.reals()), bits(&fresh.reals()));
+    for end in [|_: &Instance| c::OK, |i: &Instance| i.terminate()] {
+        assert_eq!(end(&instance), c::OK);
+        assert_eq!(instance.reset(), c::OK);
+        instance.begin_integration();
+        assert_eq!(bits(&instance.reals()), bits(&fresh.reals()));
+        assert_eq!(instance.state().serialize(), fresh.state().serialize());
+    }
+}
+
+#[test]
 fn outputs_in_initialization_mode_are_those_of_the_values_set_before() {
     let sets: [Action; 4] = [
         |i| i.set_real("collective", 0.2),

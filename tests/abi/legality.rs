@@ -1,79 +1,90 @@
 //! Which function may be called in which state: every function in every state that this FMU
-//! enters, against the table of the standard (FMI 2.0.5, section 4.2.4, Co-Simulation).
+//! enters, against the tables of the standard (FMI 2.0.5, sections 4.2.4, Co-Simulation, and 3.2.3, Model
+//! Exchange).
 
 use crate::support::{
     Instance,
     c::{self, Component, EventInfo, Functions, Status},
     instance::{bits, callbacks, reference},
 };
-use helicopter_rotor::block::variables::{GUID, INTEGERS, REALS};
+use helicopter_rotor::block::variables::{GUID, INTEGERS, REALS, STATES as CONTINUOUS};
 use std::{ffi::CString, ptr, sync::Mutex};
 
-/// The columns of the table.
-const STATES: [&str; 4] = [
+/// The columns of the table: the states of Co-Simulation, then those of Model Exchange.
+const STATES: [&str; 9] = [
     "instantiated",
     "Initialization Mode",
     "stepComplete",
     "terminated",
+    "instantiated",
+    "Initialization Mode",
+    "Event Mode",
+    "Continuous-Time Mode",
+    "terminated",
 ];
+
+/// The first column of Model Exchange.
+const MODEL_EXCHANGE: usize = 4;
 
 /// One letter for each state, in the order of `STATES`:
 /// `x` legal; `-` illegal; `o` legal, but an option that this FMU does not offer; `M` a function
-/// of Model Exchange.
+/// of Model Exchange, `C` one of Co-Simulation.
 ///
-/// fmi2Instantiate makes another instance, which does not depend on the state of this one.
+/// fmi2Instantiate makes another instance, which does not depend on the state of this one. fmi2SetTime in Event
+/// Mode (condition 8) is for FMUs without continuous states.
 const TABLE: &str = "
-    fmi2GetTypesPlatform              xxxx
-    fmi2GetVersion                    xxxx
-    fmi2SetDebugLogging               xxxx
-    fmi2Instantiate                   xxxx
-    fmi2FreeInstance                  xxxx
-    fmi2SetupExperiment               x---
-    fmi2EnterInitializationMode       x---
-    fmi2ExitInitializationMode        -x--
-    fmi2Terminate                     --x-
-    fmi2Reset                         xxxx
-    fmi2GetReal                       -xxx
-    fmi2GetInteger                    -xxx
-    fmi2GetBoolean                    -xxx
-    fmi2GetString                     -xxx
-    fmi2SetReal                       xxx-
-    fmi2SetInteger                    xxx-
-    fmi2SetBoolean                    xxx-
-    fmi2SetString                     xxx-
-    fmi2GetFMUstate                   oooo
-    fmi2SetFMUstate                   oooo
-    fmi2FreeFMUstate                  oooo
-    fmi2SerializedFMUstateSize        oooo
-    fmi2SerializeFMUstate             oooo
-    fmi2DeSerializeFMUstate           oooo
-    fmi2GetDirectionalDerivative      -ooo
-    fmi2SetRealInputDerivatives       ooo-
-    fmi2GetRealOutputDerivatives      --oo
-    fmi2DoStep                        --x-
-    fmi2CancelStep                    ----
-    fmi2GetStatus                     --xx
-    fmi2GetRealStatus                 --xx
-    fmi2GetIntegerStatus              --oo
-    fmi2GetBooleanStatus              --xx
-    fmi2GetStringStatus               --xx
-    fmi2EnterEventMode                MMMM
-    fmi2NewDiscreteStates             MMMM
-    fmi2EnterContinuousTimeMode       MMMM
-    fmi2CompletedIntegratorStep       MMMM
-    fmi2SetTime                       MMMM
-    fmi2SetContinuousStates           MMMM
-    fmi2GetDerivatives                MMMM
-    fmi2GetEventIndicators            MMMM
-    fmi2GetContinuousStates           MMMM
-    fmi2GetNominalsOfContinuousStates MMMM
+    fmi2GetTypesPlatform              xxxx xxxxx
+    fmi2GetVersion                    xxxx xxxxx
+    fmi2SetDebugLogging               xxxx xxxxx
+    fmi2Instantiate                   xxxx xxxxx
+    fmi2FreeInstance                  xxxx xxxxx
+    fmi2SetupExperiment               x--- x----
+    fmi2EnterInitializationMode       x--- x----
+    fmi2ExitInitializationMode        -x-- -x---
+    fmi2Terminate                     --x- --xx-
+    fmi2Reset                         xxxx xxxxx
+    fmi2GetReal                       -xxx -xxxx
+    fmi2GetInteger                    -xxx -xxxx
+    fmi2GetBoolean                    -xxx -xxxx
+    fmi2GetString                     -xxx -xxxx
+    fmi2SetReal                       xxx- xxxx-
+    fmi2SetInteger                    xxx- xxx--
+    fmi2SetBoolean                    xxx- xxx--
+    fmi2SetString                     xxx- xxx--
+    fmi2GetFMUstate                   xxxx xxxxx
+    fmi2SetFMUstate                   xxxx xxxxx
+    fmi2FreeFMUstate                  xxxx xxxxx
+    fmi2SerializedFMUstateSize        xxxx xxxxx
+    fmi2SerializeFMUstate             xxxx xxxxx
+    fmi2DeSerializeFMUstate           xxxx xxxxx
+    fmi2GetDirectionalDerivative      -ooo -oooo
+    fmi2SetRealInputDerivatives       xxx- CCCCC
+    fmi2GetRealOutputDerivatives      --oo CCCCC
+    fmi2DoStep                        --x- CCCCC
+    fmi2CancelStep                    ---- CCCCC
+    fmi2GetStatus                     --xx CCCCC
+    fmi2GetRealStatus                 --xx CCCCC
+    fmi2GetIntegerStatus              --oo CCCCC
+    fmi2GetBooleanStatus              --xx CCCCC
+    fmi2GetStringStatus               --xx CCCCC
+    fmi2EnterEventMode                MMMM --xx-
+    fmi2NewDiscreteStates             MMMM --x--
+    fmi2EnterContinuousTimeMode       MMMM --x--
+    fmi2CompletedIntegratorStep       MMMM ---x-
+    fmi2SetTime                       MMMM ---x-
+    fmi2SetContinuousStates           MMMM ---x-
+    fmi2GetDerivatives                MMMM -xxxx
+    fmi2GetEventIndicators            MMMM -xxxx
+    fmi2GetContinuousStates           MMMM -xxxx
+    fmi2GetNominalsOfContinuousStates MMMM xxxxx
 ";
 
 #[test]
 fn every_function_in_every_state_answers_as_the_table_of_the_standard_says() {
-    let rows: Vec<(&str, &str)> = TABLE
+    let rows: Vec<(&str, String)> = TABLE
         .lines()
         .filter_map(|line| line.trim().split_once(' '))
+        .map(|(name, letters)| (name, letters.replace(' ', "")))
         .collect();
     let mut names: Vec<&str> = rows.iter().map(|(name, _)| *name).collect();
     let mut all = c::NAMES.to_vec();
@@ -86,9 +97,14 @@ fn every_function_in_every_state_answers_as_the_table_of_the_standard_says() {
         .map(|state| finish(&in_state(state), state))
         .collect();
     for (name, letters) in rows {
-        assert_eq!(letters.trim().len(), STATES.len());
-        for (state, letter) in letters.trim().chars().enumerate() {
-            let cell = format!("{name} in the state {}", STATES[state]);
+        assert_eq!(letters.len(), STATES.len());
+        for (state, letter) in letters.chars().enumerate() {
+            let interface = if state < MODEL_EXCHANGE {
+                "Co-Simulation"
+            } else {
+                "Model Exchange"
+            };
+            let cell = format!("{name} in the state {} of {interface}", STATES[state]);
             let instance = in_state(state);
             if name == "fmi2FreeInstance" {
                 drop(instance); // calls it
@@ -103,7 +119,8 @@ fn every_function_in_every_state_answers_as_the_table_of_the_standard_says() {
             assert!(message.contains(name), "{cell}: {message}");
             let reason = match letter {
                 '-' => STATES[state],
-                'M' => "Model Exchange",
+                'M' => "belongs to Model Exchange",
+                'C' => "belongs to Co-Simulation",
                 _ => "",
             };
             assert!(message.contains(reason), "{cell}: {message}");
@@ -136,6 +153,9 @@ fn without_an_instance_every_function_refuses_and_none_crashes() {
 
 /// A fresh instance in one of `STATES`.
 fn in_state(state: usize) -> Instance<'static> {
+    if state >= MODEL_EXCHANGE {
+        return in_state_of_model_exchange(state - MODEL_EXCHANGE);
+    }
     let instance = Instance::new();
     if state >= 1 {
         instance.begin_initialization();
@@ -149,20 +169,82 @@ fn in_state(state: usize) -> Instance<'static> {
     instance
 }
 
-/// Goes from a state on to the end by legal calls; all values there.
-fn finish(instance: &Instance, state: usize) -> Vec<u64> {
-    if state < 1 {
+fn in_state_of_model_exchange(state: usize) -> Instance<'static> {
+    let instance = Instance::for_model_exchange();
+    if state >= 1 {
         instance.begin_initialization();
     }
-    if state < 2 {
+    if state >= 2 {
         assert_eq!(instance.exit_initialization(), c::OK);
     }
-    if state < 3 {
+    if state >= 3 {
+        assert_eq!(instance.enter_continuous_time(), c::OK);
+    }
+    if state >= 4 {
+        assert_eq!(instance.terminate(), c::OK);
+    }
+    instance
+}
+
+/// Goes from a state on to the end by legal calls; all values there.
+fn finish(instance: &Instance, state: usize) -> Vec<u64> {
+    let (begun, last) = if state < MODEL_EXCHANGE {
+        (state, 3)
+    } else {
+        (state - MODEL_EXCHANGE, 4)
+    };
+    if begun < 1 {
+        instance.begin_initialization();
+    }
+    if begun < 2 {
+        assert_eq!(instance.exit_initialization(), c::OK);
+    }
+    if begun < last && state < MODEL_EXCHANGE {
         assert_eq!(instance.step(0.0, 0.1), c::OK);
+    }
+    if begun < 3 && state >= MODEL_EXCHANGE {
+        assert_eq!(instance.enter_continuous_time(), c::OK);
+    }
+    if begun < last && state >= MODEL_EXCHANGE {
+        let mut x = instance.states();
+        x[0] = 0.3;
+        assert_eq!(instance.set_time(0.1) | instance.set_states(&x), c::OK);
+    }
+    if begun < last {
         assert_eq!(instance.terminate(), c::OK);
     }
     assert_eq!(instance.take_log(), []);
     bits(&instance.reals())
+}
+
+/// Calls a function that takes a state with one that the instance made just before.
+fn with_state(name: &str, f: &Functions, c: Component) -> Status {
+    let (mut state, mut size) = (ptr::null_mut(), 0);
+    // SAFETY: `c` is null or a living instance; all pointers are valid for the counts given.
+    unsafe {
+        if c.is_null() {
+            let answers = [
+                (f.fmi2SetFMUstate)(c, state),
+                (f.fmi2SerializedFMUstateSize)(c, state, &mut size),
+                (f.fmi2SerializeFMUstate)(c, state, ptr::null_mut(), 0),
+                (f.fmi2DeSerializeFMUstate)(c, ptr::null(), 0, &mut state),
+            ];
+            assert_eq!(answers, [c::ERROR; 4]);
+            return c::ERROR;
+        }
+        assert_eq!((f.fmi2GetFMUstate)(c, &mut state), c::OK);
+        assert_eq!((f.fmi2SerializedFMUstateSize)(c, state, &mut size), c::OK);
+        let mut bytes = vec![0; size];
+        let out = bytes.as_mut_ptr();
+        assert_eq!((f.fmi2SerializeFMUstate)(c, state, out, size), c::OK);
+        let status = match name {
+            "fmi2SetFMUstate" => (f.fmi2SetFMUstate)(c, state),
+            "fmi2DeSerializeFMUstate" => (f.fmi2DeSerializeFMUstate)(c, out, size, &mut state),
+            _ => c::OK,
+        };
+        assert_eq!((f.fmi2FreeFMUstate)(c, &mut state), c::OK);
+        status
+    }
 }
 
 /// Calls a function with harmless arguments, or frees nothing. Where it answers no status, 0 says
@@ -172,7 +254,9 @@ fn call(name: &str, f: &Functions, c: Component) -> Status {
     let blades = reference(&INTEGERS, "geometry.numberOfBlades");
     let (mut real, mut integer, mut text) = ([REALS[0].start], [4], [ptr::null()]);
     let empty = [c"".as_ptr()];
-    let (mut size, mut state, mut bytes) = (0, ptr::null_mut(), [0; 8]);
+    let mut state = ptr::null_mut();
+    let (mut x0, nx) = ([0.0; CONTINUOUS.len()], CONTINUOUS.len());
+    let x0 = x0.as_mut_ptr();
     let mut info = EventInfo::default();
     let mut flag = [0, 0];
     let (r, n) = (first.as_ptr(), 1);
@@ -202,14 +286,16 @@ fn call(name: &str, f: &Functions, c: Component) -> Status {
             "fmi2SetInteger" => (f.fmi2SetInteger)(c, &blades, n, i),
             "fmi2SetBoolean" => (f.fmi2SetBoolean)(c, r, n, flag.as_ptr()),
             "fmi2SetString" => (f.fmi2SetString)(c, r, n, empty.as_ptr()),
-            "fmi2GetFMUstate" => (f.fmi2GetFMUstate)(c, &mut state),
-            "fmi2SetFMUstate" => (f.fmi2SetFMUstate)(c, state),
-            "fmi2FreeFMUstate" => (f.fmi2FreeFMUstate)(c, &mut state),
-            "fmi2SerializedFMUstateSize" => (f.fmi2SerializedFMUstateSize)(c, state, &mut size),
-            "fmi2SerializeFMUstate" => (f.fmi2SerializeFMUstate)(c, state, bytes.as_mut_ptr(), 8),
-            "fmi2DeSerializeFMUstate" => {
-                (f.fmi2DeSerializeFMUstate)(c, bytes.as_ptr(), 8, &mut state)
+            "fmi2GetFMUstate" => {
+                let status = (f.fmi2GetFMUstate)(c, &mut state);
+                (f.fmi2FreeFMUstate)(c, &mut state);
+                status
             }
+            "fmi2FreeFMUstate" => (f.fmi2FreeFMUstate)(c, &mut state),
+            "fmi2SetFMUstate"
+            | "fmi2SerializedFMUstateSize"
+            | "fmi2SerializeFMUstate"
+            | "fmi2DeSerializeFMUstate" => with_state(name, f, c),
             "fmi2GetDirectionalDerivative" => {
                 (f.fmi2GetDirectionalDerivative)(c, r, n, r, n, [1.0].as_ptr(), x)
             }
@@ -221,11 +307,11 @@ fn call(name: &str, f: &Functions, c: Component) -> Status {
                 (f.fmi2CompletedIntegratorStep)(c, 1, event, end)
             }
             "fmi2SetTime" => (f.fmi2SetTime)(c, 0.0),
-            "fmi2SetContinuousStates" => (f.fmi2SetContinuousStates)(c, x, 0),
-            "fmi2GetDerivatives" => (f.fmi2GetDerivatives)(c, x, 0),
+            "fmi2SetContinuousStates" => (f.fmi2SetContinuousStates)(c, x0, nx),
+            "fmi2GetDerivatives" => (f.fmi2GetDerivatives)(c, x0, nx),
             "fmi2GetEventIndicators" => (f.fmi2GetEventIndicators)(c, x, 0),
-            "fmi2GetContinuousStates" => (f.fmi2GetContinuousStates)(c, x, 0),
-            "fmi2GetNominalsOfContinuousStates" => (f.fmi2GetNominalsOfContinuousStates)(c, x, 0),
+            "fmi2GetContinuousStates" => (f.fmi2GetContinuousStates)(c, x0, nx),
+            "fmi2GetNominalsOfContinuousStates" => (f.fmi2GetNominalsOfContinuousStates)(c, x0, nx),
             "fmi2SetRealInputDerivatives" => {
                 (f.fmi2SetRealInputDerivatives)(c, r, n, [1].as_ptr(), x)
             }

@@ -46,6 +46,37 @@ fn a_clean_run_logs_nothing_while_logging_is_off() {
     assert_eq!(instance.take_log(), []);
 }
 
+/// The same in Model Exchange, with an event.
+#[test]
+fn a_clean_integration_logs_its_files_only_while_logging_is_on() {
+    for logging_on in [false, true] {
+        let creation = Creation {
+            kind: c::MODEL_EXCHANGE,
+            logging_on,
+            ..Creation::default()
+        };
+        let instance = Instance::create(Fmu::shared(), &creation).unwrap();
+        instance.begin_integration();
+        let files = instance.take_log();
+        assert_eq!(!files.is_empty(), logging_on);
+        for line in &files {
+            assert_eq!((line.status, line.category.as_str()), (c::OK, "logEvents"));
+        }
+        assert_eq!(instance.set_time(0.1), c::OK);
+        assert_eq!(instance.set_states(&instance.states()), c::OK);
+        assert_eq!(instance.set_real("velocity[3]", -30.0), c::OK);
+        assert_eq!(instance.derivatives()[0], instance.real("der(azimuth)"));
+        assert!(instance.completed_step());
+        assert_eq!(instance.enter_event_mode(), c::OK);
+        instance.new_discrete_states();
+        assert_eq!(instance.enter_continuous_time(), c::OK);
+        let state = instance.state();
+        assert_eq!(instance.set_state(&state), c::OK);
+        assert_eq!(instance.terminate(), c::OK);
+        assert_eq!(instance.take_log(), []);
+    }
+}
+
 #[test]
 fn with_logging_on_the_log_says_which_files_were_read() {
     let instance = with_logging();

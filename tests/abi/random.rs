@@ -5,9 +5,12 @@ use crate::support::{
     Instance,
     c::{self, Reference},
 };
-use helicopter_rotor::block::variables::{BOOLEANS, INTEGERS, REALS};
+use helicopter_rotor::block::variables::{BOOLEANS, INTEGERS, REALS, STATES};
 use proptest::prelude::*;
-use std::ffi::{CString, c_int};
+use std::{
+    ffi::{CString, c_int},
+    ptr,
+};
 
 /// One call.
 #[derive(Debug, Clone)]
@@ -15,7 +18,10 @@ enum Call {
     SetUp(f64, Option<f64>),
     Enter,
     Exit,
-    Step { offset: f64, size: f64 },
+    Step {
+        offset: f64,
+        size: f64,
+    },
     Terminate,
     Reset,
     SetReals(Vec<(Reference, f64)>),
@@ -26,6 +32,22 @@ enum Call {
     GetInteger(Reference),
     GetBoolean(Reference),
     Log(bool, Vec<&'static str>),
+    SetSlope(Reference, c_int, f64),
+    EnterEventMode,
+    NewDiscreteStates,
+    EnterContinuousTime,
+    CompletedStep,
+    SetTime(f64),
+    /// Moves some of the states.
+    SetStates(Vec<(usize, f64)>),
+    GetDerivatives,
+    /// Takes the complete state, over the one that was taken before.
+    TakeState,
+    /// Goes back to the state that was taken.
+    SetState,
+    /// Through bytes.
+    SerializeState,
+    FreeState,
 }
 
 fn reals() -> impl Strategy<Value = f64> {
@@ -87,11 +109,34 @@ fn calls() -> impl Strategy<Value = Call> {
         1 => references(BOOLEANS.len()).prop_map(Call::GetBoolean),
         1 => (any::<bool>(), prop::sample::subsequence(categories, 0..=3))
             .prop_map(|(on, chosen)| Call::Log(on, chosen)),
+        3 => (references(20), prop_oneof![9 => Just(1), 1 => any::<c_int>()], reals())
+            .prop_map(|(reference, order, value)| Call::SetSlope(reference, order, value)),
+        6 => prop::sample::select(vec![
+            Call::EnterEventMode, Call::NewDiscreteStates, Call::EnterContinuousTime,
+            Call::EnterContinuousTime, Call::CompletedStep, Call::GetDerivatives,
+        ]),
+        1 => reals().prop_map(Call::SetTime),
+        6 => prop::collection::vec((0..STATES.len(), reals()), 0..5).prop_map(Call::SetStates),
+        4 => prop::sample::select(vec![
+            Call::TakeState, Call::SetState, Call::SerializeState, Call::FreeState,
+        ]),
     ]
 }
 
-/// Makes a call; `time` is where the last step ended. Numbers that were read go to `read`.
-fn make(instance: &Instance, call: &Call, time: &mut f64, read: &mut Vec<f64>) -> c::Status {
+/// What an importer keeps beside the instance.
+#[derive(Default)]
+struct Importer {
+    /// Where the last step ended.
+    time: f64,
+    taken: Option<(c::FmuState, f64)>,
+    /// The numbers that the last call answered.
+    read: Vec<f64>,
+}
+
+/// Makes a call.
+fn make(instance: &Instance, call: &Call, importer: &mut Importer) -> c::Status {
+    let (f, component) = (instance.functions, instance.component);
+    let Importer { time, taken, read } = importer;
     match call {
         Call::SetUp(start, stop) => {
             let status = instance.set_up(*start, *stop);
@@ -135,6 +180,60 @@ fn make(instance: &Instance, call: &Call, time: &mut f64, read: &mut Vec<f64>) -
             status
         }
         Call::Log(on, categories) => instance.set_debug_logging(*on, categories),
+        Call::SetSlope(reference, order, value) => {
+            instance.set_input_derivatives(&[*reference], &[*order], &[*value])
+        }
+        Call::EnterEventMode => instance.enter_event_mode(),
+        Call::NewDiscreteStates => {
+            let mut info = c::EventInfo::default();
+            // SAFETY: the instance lives, and the answer has its room (also below).
+            unsafe { (f.fmi2NewDiscreteStates)(component, &mut info) }
+        }
+        Call::EnterContinuousTime => instance.enter_continuous_time(),
+        Call::CompletedStep => {
+            let (mut event, mut end) = (0, 0);
+            // SAFETY: see above.
+            unsafe { (f.fmi2CompletedIntegratorStep)(component, 1, &mut event, &mut end) }
+        }
+        Call::SetTime(time) => instance.set_time(*time),
+        Call::SetStates(changes) => {
+            let mut x = vec![0.0; STATES.len()];
+            // SAFETY: see above.
+            unsafe { (f.fmi2GetContinuousStates)(component, x.as_mut_ptr(), x.len()) };
+            instance.take_log();
+            changes.iter().for_each(|(i, value)| x[*i] = *value);
+            instance.set_states(&x)
+        }
+        Call::GetDerivatives => {
+            read.resize(STATES.len(), f64::NAN);
+            // SAFETY: see above.
+            unsafe { (f.fmi2GetDerivatives)(component, read.as_mut_ptr(), read.len()) }
+        }
+        Call::TakeState => {
+            let mut pointer = taken.map_or(ptr::null_mut(), |(pointer, _)| pointer);
+            let status = instance.get_state(&mut pointer);
+            *taken = Some((pointer, *time));
+            status
+        }
+        Call::SetState => {
+            let (pointer, then) = taken.unwrap_or((ptr::null_mut(), *time));
+            // SAFETY: the instance lives, and the state is null or lives.
+            let status = unsafe { (f.fmi2SetFMUstate)(component, pointer) };
+            if status == c::OK {
+                *time = then;
+            }
+            status
+        }
+        Call::SerializeState => {
+            let state = instance.state();
+            let again = instance.deserialize(&state.serialize());
+            again.map_or_else(|status| status, |again| instance.set_state(&again))
+        }
+        Call::FreeState => {
+            let mut pointer = taken.take().map_or(ptr::null_mut(), |(pointer, _)| pointer);
+            // SAFETY: the instance lives, and the state is null or lives.
+            unsafe { (f.fmi2FreeFMUstate)(component, &mut pointer) }
+        }
     }
 }
 
@@ -143,17 +242,23 @@ proptest! {
 
     #[test]
     fn random_calls_never_crash_and_never_read_what_is_not_finite(
+        is_model_exchange in any::<bool>(),
         initialized in any::<bool>(),
         calls in prop::collection::vec(calls(), 1..60),
     ) {
-        let instance = Instance::new();
+        let instance = if is_model_exchange {
+            Instance::for_model_exchange()
+        } else {
+            Instance::new()
+        };
         if initialized {
             instance.initialize();
         }
-        let mut time = 0.0;
+        let mut importer = Importer::default();
         for call in &calls {
-            let mut read = Vec::new();
-            let status = make(&instance, call, &mut time, &mut read);
+            importer.read.clear();
+            let status = make(&instance, call, &mut importer);
+            let read = &importer.read;
             prop_assert!([c::OK, c::WARNING, c::ERROR].contains(&status), "{:?}: {}", call, status);
             prop_assert!(status != c::WARNING || matches!(call, Call::Log(..)), "{:?}", call);
             if status == c::OK {
@@ -163,6 +268,7 @@ proptest! {
                 prop_assert!(!line.message.contains("internal error"), "{:?}: {:?}", call, line);
             }
         }
+        make(&instance, &Call::FreeState, &mut importer);
         // Whatever happened: after a reset the instance is as new.
         prop_assert_eq!(instance.reset(), c::OK);
         instance.initialize();

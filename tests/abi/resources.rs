@@ -67,7 +67,12 @@ fn without_a_usable_location_the_resources_beside_the_library_are_found() {
         let a_file = uri(&resources.join("airfoils/naca0015.polar"));
         for location in [
             "",
+            " ",
+            "\t\n",
             "resources",
+            "./resources/",
+            "file:resources",
+            "größe/資源",
             "file:",
             "file://",
             "file:///no/such/folder",

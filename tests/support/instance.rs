@@ -4,7 +4,9 @@ use super::{
     c::{self, Callbacks, Component, Functions, Reference, Status, Text},
     fmu::{Fmu, uri},
 };
-use helicopter_rotor::block::variables::{BOOLEANS, GUID, INTEGERS, REALS, STRINGS, Variable};
+use helicopter_rotor::block::variables::{
+    BOOLEANS, GUID, INTEGERS, REALS, STATES, STRINGS, Variable,
+};
 use std::{
     ffi::{CStr, CString, c_int, c_void},
     ptr,
@@ -139,6 +141,15 @@ impl<'f> Instance<'f> {
         let instance = Instance::new();
         instance.initialize();
         instance
+    }
+
+    /// An instance of the shared FMU for Model Exchange before its initialisation.
+    pub fn for_model_exchange() -> Instance<'static> {
+        let creation = Creation {
+            kind: c::MODEL_EXCHANGE,
+            ..Creation::default()
+        };
+        Instance::create(Fmu::shared(), &creation).unwrap()
     }
 
     /// From fmi2SetupExperiment, with start time 0 and no stop time, to the end of initialisation.
@@ -362,6 +373,190 @@ impl Instance<'_> {
             .to_str()
             .unwrap()
             .to_owned()
+    }
+}
+
+/// Functions of Model Exchange. SAFETY as above.
+impl Instance<'_> {
+    /// From before the initialisation to Continuous-Time Mode.
+    #[track_caller]
+    pub fn begin_integration(&self) {
+        self.initialize();
+        self.new_discrete_states();
+        assert_eq!(self.enter_continuous_time(), c::OK);
+    }
+
+    pub fn enter_event_mode(&self) -> Status {
+        // SAFETY: see above.
+        unsafe { (self.functions.fmi2EnterEventMode)(self.component) }
+    }
+
+    /// Asserts that nothing but the discrete states changes.
+    #[track_caller]
+    pub fn new_discrete_states(&self) {
+        let mut info = c::EventInfo {
+            flags: [9; 5],
+            next_event_time: -1.0,
+        };
+        // SAFETY: see above.
+        let status = unsafe { (self.functions.fmi2NewDiscreteStates)(self.component, &mut info) };
+        assert_eq!(status, c::OK, "{:?}", self.take_log());
+        assert_eq!(info.flags, [0; 5]);
+    }
+
+    pub fn enter_continuous_time(&self) -> Status {
+        // SAFETY: see above.
+        unsafe { (self.functions.fmi2EnterContinuousTimeMode)(self.component) }
+    }
+
+    pub fn set_time(&self, time: f64) -> Status {
+        // SAFETY: see above.
+        unsafe { (self.functions.fmi2SetTime)(self.component, time) }
+    }
+
+    /// Whether Event Mode is asked for.
+    #[track_caller]
+    pub fn completed_step(&self) -> bool {
+        let (mut event, mut end) = (9, 9);
+        let completed = self.functions.fmi2CompletedIntegratorStep;
+        // SAFETY: see above.
+        let status = unsafe { completed(self.component, 1, &mut event, &mut end) };
+        assert_eq!(status, c::OK, "{:?}", self.take_log());
+        assert!([0, 1].contains(&event) && end == 0, "{event} {end}");
+        event == 1
+    }
+
+    pub fn set_states(&self, x: &[f64]) -> Status {
+        // SAFETY: see above.
+        unsafe { (self.functions.fmi2SetContinuousStates)(self.component, x.as_ptr(), x.len()) }
+    }
+
+    #[track_caller]
+    pub fn states(&self) -> Vec<f64> {
+        self.state_vector(self.functions.fmi2GetContinuousStates)
+    }
+
+    #[track_caller]
+    pub fn derivatives(&self) -> Vec<f64> {
+        self.state_vector(self.functions.fmi2GetDerivatives)
+    }
+
+    #[track_caller]
+    pub fn nominals(&self) -> Vec<f64> {
+        self.state_vector(self.functions.fmi2GetNominalsOfContinuousStates)
+    }
+
+    #[track_caller]
+    fn state_vector(
+        &self,
+        get: unsafe extern "C" fn(Component, *mut f64, usize) -> Status,
+    ) -> Vec<f64> {
+        let mut x = vec![f64::NAN; STATES.len()];
+        // SAFETY: see above.
+        let status = unsafe { get(self.component, x.as_mut_ptr(), x.len()) };
+        assert_eq!(status, c::OK, "{:?}", self.take_log());
+        x
+    }
+}
+
+/// Input derivatives, and the complete state. SAFETY as above.
+impl<'f> Instance<'f> {
+    pub fn set_slope(&self, name: &str, slope: f64) -> Status {
+        self.set_input_derivatives(&[reference(&REALS, name)], &[1], &[slope])
+    }
+
+    pub fn set_input_derivatives(
+        &self,
+        references: &[Reference],
+        orders: &[c_int],
+        values: &[f64],
+    ) -> Status {
+        assert_eq!(
+            (references.len(), orders.len()),
+            (values.len(), values.len())
+        );
+        let set = self.functions.fmi2SetRealInputDerivatives;
+        let (r, n, o) = (references.as_ptr(), references.len(), orders.as_ptr());
+        // SAFETY: see above.
+        unsafe { set(self.component, r, n, o, values.as_ptr()) }
+    }
+
+    /// A copy of the state.
+    #[track_caller]
+    pub fn state(&self) -> State<'_, 'f> {
+        let mut pointer = ptr::null_mut();
+        assert_eq!(self.get_state(&mut pointer), c::OK, "{:?}", self.take_log());
+        assert!(!pointer.is_null());
+        State {
+            pointer,
+            owner: self,
+        }
+    }
+
+    pub fn get_state(&self, pointer: &mut c::FmuState) -> Status {
+        // SAFETY: see above.
+        unsafe { (self.functions.fmi2GetFMUstate)(self.component, pointer) }
+    }
+
+    pub fn set_state(&self, state: &State) -> Status {
+        // SAFETY: see above.
+        unsafe { (self.functions.fmi2SetFMUstate)(self.component, state.pointer) }
+    }
+
+    /// The state that bytes hold.
+    pub fn deserialize(&self, bytes: &[u8]) -> Result<State<'_, 'f>, Status> {
+        let mut pointer = ptr::null_mut();
+        let read = self.functions.fmi2DeSerializeFMUstate;
+        // SAFETY: see above.
+        let status = unsafe {
+            read(
+                self.component,
+                bytes.as_ptr().cast(),
+                bytes.len(),
+                &mut pointer,
+            )
+        };
+        if status != c::OK {
+            assert!(pointer.is_null());
+            return Err(status);
+        }
+        Ok(State {
+            pointer,
+            owner: self,
+        })
+    }
+}
+
+/// A copy of an instance's state; it is freed when it is dropped.
+pub struct State<'i, 'f> {
+    pub pointer: c::FmuState,
+    owner: &'i Instance<'f>,
+}
+
+impl State<'_, '_> {
+    #[track_caller]
+    pub fn serialize(&self) -> Vec<u8> {
+        let (f, component) = (self.owner.functions, self.owner.component);
+        let mut size = 0;
+        // SAFETY: the instance and the state live; the pointers are valid for their counts.
+        unsafe {
+            let status = (f.fmi2SerializedFMUstateSize)(component, self.pointer, &mut size);
+            assert_eq!(status, c::OK);
+            let mut bytes = vec![0_u8; size];
+            let out = bytes.as_mut_ptr().cast();
+            let status = (f.fmi2SerializeFMUstate)(component, self.pointer, out, size);
+            assert_eq!(status, c::OK);
+            bytes
+        }
+    }
+}
+
+impl Drop for State<'_, '_> {
+    fn drop(&mut self) {
+        let free = self.owner.functions.fmi2FreeFMUstate;
+        // SAFETY: the instance lives, and the state is not used afterwards.
+        let status = unsafe { free(self.owner.component, &mut self.pointer) };
+        assert!(std::thread::panicking() || (status == c::OK && self.pointer.is_null()));
     }
 }
 

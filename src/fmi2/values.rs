@@ -1,0 +1,186 @@
+//! Getting and setting the values of variables: fmi2Functions.h, "Getting and setting variable values".
+
+#![allow(non_snake_case)]
+
+use super::{
+    common::{elements, elements_mut, text},
+    instance::{Instance, Message, call},
+    legality::{Function, INITIALIZATION_MODE},
+    logger::printable,
+    types::*,
+};
+use crate::block::{
+    Values,
+    variables::{INTEGERS, REALS, is_computed, is_state},
+};
+
+/// # Safety
+/// As in the standard: `vr` and `value` have `nvr` elements.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetReal(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *mut fmi2Real,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller.
+        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
+        // The states are there, but in Initialization Mode.
+        let must_be_computed = |reference: &u32| {
+            is_computed(&REALS, *reference)
+                && (instance.state == INITIALIZATION_MODE || !is_state(*reference))
+        };
+        if vr.iter().any(must_be_computed) {
+            instance.refresh()?;
+        }
+        Ok(instance.block.values().read_reals(vr, value)?)
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, Function::fmi2GetReal, body) }
+}
+
+/// # Safety
+/// As in the standard: `vr` and `value` have `nvr` elements.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetInteger(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *mut fmi2Integer,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller.
+        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
+        if vr
+            .iter()
+            .any(|reference| is_computed(&INTEGERS, *reference))
+        {
+            instance.refresh()?;
+        }
+        Ok(instance.block.values().read_integers(vr, value)?)
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, Function::fmi2GetInteger, body) }
+}
+
+/// # Safety
+/// As in the standard: `vr` and `value` have `nvr` elements.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetBoolean(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *mut fmi2Boolean,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller.
+        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
+        Ok(instance.block.values().read_booleans(vr, value)?)
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, Function::fmi2GetBoolean, body) }
+}
+
+/// # Safety
+/// As in the standard: `vr` and `value` have `nvr` elements.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetString(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *mut fmi2String,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller.
+        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
+        for (reference, slot) in vr.iter().zip(value) {
+            let place = Values::string_place(*reference)?;
+            let kept = &mut instance.strings[place];
+            // An unchanged text keeps its address, also where one call names it twice.
+            let present = &instance.block.values().strings[place];
+            if kept.as_bytes() != present.as_bytes() {
+                *kept = printable(present);
+            }
+            *slot = kept.as_ptr();
+        }
+        Ok(())
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, Function::fmi2GetString, body) }
+}
+
+/// # Safety
+/// As in the standard: `vr` and `value` have `nvr` elements.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetReal(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *const fmi2Real,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller.
+        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements(value, nvr, "value")?) };
+        Ok(instance.block.set_reals(vr, value)?)
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, Function::fmi2SetReal, body) }
+}
+
+/// # Safety
+/// As in the standard: `vr` and `value` have `nvr` elements.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetInteger(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *const fmi2Integer,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller.
+        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements(value, nvr, "value")?) };
+        Ok(instance.block.set_integers(vr, value)?)
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, Function::fmi2SetInteger, body) }
+}
+
+/// # Safety
+/// As in the standard: `vr` and `value` have `nvr` elements.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetBoolean(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *const fmi2Boolean,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller.
+        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements(value, nvr, "value")?) };
+        Ok(instance.block.set_booleans(vr, value)?)
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, Function::fmi2SetBoolean, body) }
+}
+
+/// # Safety
+/// As in the standard: `vr` and `value` have `nvr` elements, C strings the latter.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetString(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    value: *const fmi2String,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller.
+        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements(value, nvr, "value")?) };
+        // SAFETY: passed on from the caller.
+        let texts = value.iter().map(|v| unsafe { text(*v, "a value") });
+        let texts = texts.collect::<Result<Vec<&str>, Message>>()?;
+        Ok(instance.block.set_strings(vr, &texts)?)
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, Function::fmi2SetString, body) }
+}
