@@ -26,6 +26,7 @@ FIT_LIMIT_DEG = 12.7
 BELOW_STALL_DEG = 8
 
 REYNOLDS = [2e4, 4e4, 7e4, 1e5, 1.5e5, 2.42e5, 4e5, 7e5, 1e6, 2e6, 5e6, 1e7]
+SCALED_REYNOLDS = [4e4, 7e4, 1e5, 1.5e5, 2.42e5, 4e5, 7e5, 1e6]
 GOETTINGEN_REYNOLDS = [1e5, 2e5, 5e5, 1e6, 2e6, 3e6, 4e6, 6e6]
 MODEL_SIZE = "xlarge"
 N_CRIT = 1.0
@@ -283,6 +284,47 @@ Match angle: {KNOTS[-1]:.0f} deg, the last knot.
     return render("NACA 0015, Knight & Hefner 1937, Re 242,000", header, [block])
 
 
+def scaled_block(reynolds):
+    """The measured polar with its drag taken to another Reynolds number by computed ratios."""
+    cl, cd = fit_measured()[:2]
+    _, there, confidence = neuralfoil_polar(KNOTS, reynolds, N_CRIT)
+    _, here, _ = neuralfoil_polar(KNOTS, MEASURED_REYNOLDS, N_CRIT)
+    if confidence.min() < LOWEST_CONFIDENCE:
+        raise TableError(
+            f"At Re {reynolds:.0f} NeuralFoil's confidence falls below {LOWEST_CONFIDENCE} "
+            f"between 0 and {KNOTS[-1]:.0f} deg."
+        )
+    # What drag there is above that at the peak of the lift is that of pressure in stall, and stays.
+    peak = int(np.argmax(cl))
+    ratio = (there / here)[np.minimum(np.arange(len(KNOTS)), peak)]
+    return extend(reynolds, KNOTS, cl, cd + np.minimum(cd, cd[peak]) * (ratio - 1))
+
+
+def scaled_file():
+    """naca0015-knight-hefner-reynolds.polar"""
+    blocks = []
+    for reynolds in SCALED_REYNOLDS:
+        progress(f"  Re {reynolds:.0f}")
+        blocks.append(scaled_block(reynolds))
+    low, high = blocks[0], blocks[-1]
+    header = f"""
+NACA 0015, measured at Re {MEASURED_REYNOLDS:,}, its drag taken to other Reynolds numbers by computed
+ratios. Made by airfoil-tables/make_tables.py; do not edit.
+Measured: naca0015-knight-hefner.polar, which says how. Its block at Re {MEASURED_REYNOLDS:,} is here as it is there.
+Method: up to {KNOTS[-1]:.0f} deg, at each knot of the measured polar, its cd times the ratio of those that
+NeuralFoil {version("neuralfoil")} (P. Sharpe) computes at the other Reynolds number and at {MEASURED_REYNOLDS:,}, with the
+settings of naca0015.polar: model size {MODEL_SIZE}, Mach 0, free transition with n_crit {N_CRIT:.0f}.
+Beyond the measured peak of cl, at {KNOTS[np.argmax(low.cl[: len(KNOTS)])]:.0f} deg, only as much drag as there is at the peak is scaled,
+with the ratio there; the rest is pressure drag of the stall. NeuralFoil's own confidence is at
+least {LOWEST_CONFIDENCE} at the knots. No value is adjusted by hand.
+Drag at 0 deg: {low.cd[0]:.4f} at Re {low.reynolds:,.0f} to {high.cd[0]:.4f} at Re {high.reynolds:,.0f}.
+Lift is the measured one at all Reynolds numbers, also its peak: airfoil-tables/README.md says why.
+Match angle: {KNOTS[-1]:.0f} deg, the last knot.
+{POST_STALL}
+"""
+    return render("NACA 0015, Knight & Hefner 1937, drag by Reynolds number", header, blocks)
+
+
 def computed_file():
     """naca0015.polar"""
     blocks = []
@@ -414,6 +456,7 @@ Re 2e5 and 1e6 drag depends on roughness and turbulence and may differ by a fact
 
 FILES = {
     "naca0015-knight-hefner.polar": knight_hefner_file,
+    "naca0015-knight-hefner-reynolds.polar": scaled_file,
     "naca0015.polar": computed_file,
     "naca0012.polar": naca0012_file,
     "goettingen429.polar": goettingen_file,

@@ -2,7 +2,8 @@
 
 Knight, M. & Hefner, R. A. (1937), "Static Thrust Analysis of the Lifting Airscrew", NACA TN 626:
 rotors of three and four untwisted NACA 0015 blades, thrust and torque against pitch. The section
-data are the authors' own, measured at the blade tip's Reynolds number. No parameter is fitted.
+data are the authors' own, measured at the blade tip's Reynolds number; the rotors' files name
+naca0015-knight-hefner-reynolds.polar, which takes their drag inwards. No parameter is fitted.
 
     python knight_hefner.py --fmu HelicopterRotor.fmu --out FOLDER
 
@@ -58,7 +59,6 @@ def fly(unzipped, description, blades, pitch):
         step_size=0.1,
         start_values={
             "geometry.file": f"knight-hefner-{blades}.toml",
-            "airfoil.file": "airfoils/naca0015-knight-hefner.polar",
             "rpm": RPM,
             "collective": math.radians(pitch),
             **CONDITIONS,
@@ -76,7 +76,7 @@ def percent(computed, measured):
 def table(fly_at):
     """The measured rows with what the FMU computes added; prints as it goes."""
     rows = measured_rows()
-    print("Knight & Hefner (1937), hover, computed with naca0015-knight-hefner.polar")
+    print("Knight & Hefner (1937), hover, computed with the authors' own section data")
     print(" blades  pitch |   CT FMU  CT measured   diff |     CQ FMU  CQ measured   diff")
     print("           deg |                          % |                             %")
     for row in rows:

@@ -51,6 +51,7 @@ fn the_archive_holds_what_an_importer_and_a_reader_expect() {
         "documentation/licenses/THIRD-PARTY.txt",
         "model.png",
         "resources/airfoils/naca0015-knight-hefner.polar",
+        "resources/airfoils/naca0015-knight-hefner-reynolds.polar",
         "resources/airfoils/naca0015.polar",
         "resources/airfoils/naca0015.txt",
         "resources/airfoils/naca0012.polar",
