@@ -26,9 +26,9 @@ HOVER = Experiment(
     name="hover",
     description="Hover: the collective is raised from 4 to 10 deg and lowered to 8 deg; all parameters at their defaults",
     stop=1.0,
-    step=0.005,
-    interval=0.05,
-    inputs={"collective": [(0.1, deg(4.0)), (0.7, deg(10.0)), (0.75, deg(10.0)), (1.0, deg(8.0))]},
+    step=0.004,
+    interval=0.04,
+    inputs={"collective": [(0.1, deg(4.0)), (0.7, deg(10.0)), (0.76, deg(10.0)), (1.0, deg(8.0))]},
     outputs=(
         "thrust",
         "torque",
@@ -73,26 +73,25 @@ FORWARD = Experiment(
 
 DESCENT = Experiment(
     name="descent",
-    description="From climb into vertical descent through the vortex ring and the turbulent wake into the windmill brake state; the rotor of NACA TN 2474",
-    stop=2.5,
-    step=0.01,
-    interval=0.1,
+    description="From climb into vertical descent through the vortex ring into the turbulent wake; the rotor of NACA TN 2474",
+    stop=2.8,
+    step=0.008,
+    interval=0.08,
     parameters={
         "geometry.file": "rotors/castles-gray-6ft.toml",
         "model.inflow": "uniform",
         "model.descent": "measured",
     },
     inputs={
-        "collective": [(0.5, deg(7.0)), (2.3, deg(4.5))],
+        "collective": [(0.4, deg(5.0)), (2.4, deg(4.0))],
         "rpm": [(0.0, 1200.0)],
-        "velocity[3]": [(0.1, 2.0), (2.4, -13.0)],
+        "velocity[3]": [(0.08, 2.0), (2.72, -9.0)],
     },
     outputs=(
         "thrust",
         "torque",
         "power",
         "inducedVelocity",
-        "inflowRatio",
         "flowState",
     ),
 )
@@ -101,18 +100,18 @@ AUTOROTATION = Experiment(
     name="autorotation",
     description="Engine failure in hover and vertical autorotation: a torque turns the rotor, and goes to zero",
     stop=4.0,
-    step=0.016,
-    interval=0.16,
+    step=0.0125,
+    interval=0.1,
     parameters={
         "model.inflow": "pittPetersDynamic",
         "driveMode": "torque",
         "driveInertia": 0.25,
     },
     inputs={
-        "collective": [(0.4, deg(8.0)), (2.8, deg(3.0))],
-        "velocity[3]": [(0.16, 0.0), (3.2, -9.0)],
+        "collective": [(0.4, deg(8.0)), (2.6, deg(3.0))],
+        "velocity[3]": [(0.2, 0.0), (3.6, -9.0)],
         # At first nearly what the rotor absorbs in hover.
-        "driveTorque": [(0.08, 4.23), (0.48, 0.0)],
+        "driveTorque": [(0.1, 4.23), (0.5, 0.0)],
     },
     outputs=(
         "thrust",

@@ -12,9 +12,6 @@ import numpy as np
 from fmpy import extract, read_model_description
 from fmpy.fmi2 import FMU2Slave
 
-# Largest internal step of the rotor, rad.
-AZIMUTH_STEP = np.radians(0.5)
-
 
 class Rotor:
     """An instance of the FMU, which variables are set and read by name."""
@@ -57,10 +54,14 @@ def inputs_at(experiment, time):
 
 
 def converged(fmu, experiment, parts):
-    """Rows (time, outputs ...) at the experiment's interval, each communication step cut into `parts`."""
+    """Rows (time, outputs ...) at the experiment's interval, each communication step cut into `parts`.
+
+    The rotor's own largest step goes with it: 0.5 deg at 10 parts, a sixth of the default.
+    """
+    azimuth_step = np.radians(5.0 / parts)
     with tempfile.TemporaryDirectory() as folder:
         rotor = Rotor(fmu, folder)
-        rotor.set(experiment.parameters | {"numerics.azimuthStep": AZIMUTH_STEP})
+        rotor.set(experiment.parameters | {"numerics.azimuthStep": azimuth_step})
         rotor.slave.setupExperiment(startTime=0.0)
         rotor.slave.enterInitializationMode()
         rotor.set(inputs_at(experiment, 0.0))
