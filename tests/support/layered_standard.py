@@ -1,7 +1,7 @@
 """Holds the reference files in an FMU against the rules of their formats; prints what breaks them, or "Conforms.".
 
-FMI Layered Standard References: which elements, attributes and roles its manifest and the experiments file may have, and where
-files lie. Parameter sets are validated by the schema of SSP that FMPy brings. CSV files keep the rules of the
+FMI Layered Standard References: which elements, attributes and roles its manifest and the experiments file may have,
+and where files lie. Parameter sets are validated by the schema of SSP that FMPy brings. CSV files keep the rules of the
 FMI cross-check, version 4.1, appendix B, and ours: rows of inputs at each communication point.
 
     python layered_standard.py HelicopterRotor.fmu
