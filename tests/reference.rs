@@ -376,6 +376,27 @@ fn the_cross_check_has_the_experiment_with_defaults() {
     assert_eq!(options, expected);
     assert!(!read(BESIDE, "README.md").is_empty());
 
+    // What the cross-check's repository asks of a submission, as FMPy checks it.
+    let folder = scratch().join("2.0/cs/linux64/HelicopterRotor/0.1.0/HelicopterRotor");
+    fs::create_dir_all(&folder).unwrap();
+    fs::copy(packaged_fmu(), folder.join("HelicopterRotor.fmu")).unwrap();
+    for suffix in ["in.csv", "ref.csv", "ref.opt"] {
+        let name = format!("HelicopterRotor_{suffix}");
+        fs::write(folder.join(&name), read(BESIDE, &name)).unwrap();
+    }
+    let judge = "import sys; from fmpy.cross_check.validate_vendor_repo import validate_test_fmu; \
+        print(*validate_test_fmu(sys.argv[1]), sep='\\n')";
+    let validate = || {
+        let output = Command::new(interpreter())
+            .args(["-c", judge])
+            .arg(&folder)
+            .output();
+        succeeded(&output.unwrap()).trim().to_owned()
+    };
+    assert_eq!(validate(), "");
+    fs::remove_file(folder.join("HelicopterRotor_ref.opt")).unwrap();
+    assert!(validate().contains("HelicopterRotor_ref.opt"));
+
     // As FMPy's own command reads and flies it.
     let out = scratch().join("cross-check.csv");
     let inputs = sources().join(BESIDE).join("HelicopterRotor_in.csv");
