@@ -10,19 +10,13 @@ pub fn knight_hefner(fmu: &Path, target: &Path) -> Result<(), Failure> {
         .map_err(failed("the .fmu is made, but it cannot be flown here"))?;
     let script = python::examples().join("knight_hefner.py");
     let folder = fmu.parent().unwrap_or(Path::new("."));
-    let status = Command::new(interpreter)
-        .arg(&script)
-        .arg("--fmu")
-        .arg(fmu)
-        .arg("--out")
-        .arg(folder)
-        .status()
-        .map_err(failed(format!("cannot run {}", script.display())))?;
-    if status.success() {
-        return Ok(());
-    }
-    Err(Failure(format!(
-        "{} failed ({status}); its own words stand above",
-        script.display()
-    )))
+    python::run(
+        Command::new(interpreter)
+            .arg(&script)
+            .arg("--fmu")
+            .arg(fmu)
+            .arg("--out")
+            .arg(folder),
+        &script,
+    )
 }

@@ -3,6 +3,7 @@
 mod fly;
 mod package;
 mod python;
+mod reference;
 
 use clap::{Parser, Subcommand};
 use std::{
@@ -31,6 +32,8 @@ enum Command {
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
+    /// Make the reference inputs and outputs anew, that an importer is checked against, and the .fmu with them in it
+    Reference,
     /// Make the Python environment of the examples, and print the path of its interpreter
     Python,
 }
@@ -66,6 +69,11 @@ fn run(command: Option<Command>) -> Result<(), Failure> {
     match command {
         Some(Command::Package { out }) => {
             make_fmu(out.as_deref().unwrap_or(&default_fmu))?;
+        }
+        Some(Command::Reference) => {
+            make_fmu(&default_fmu)?;
+            reference::make(&default_fmu, &target)?;
+            make_fmu(&default_fmu)?;
         }
         Some(Command::Python) => {
             println!("{}", python::environment(&target)?.display());

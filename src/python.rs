@@ -68,6 +68,20 @@ pub fn environment(target: &Path) -> Result<PathBuf, Failure> {
     Ok(interpreter)
 }
 
+/// Runs a script, whose words go to the terminal.
+pub fn run(command: &mut Command, script: &Path) -> Result<(), Failure> {
+    let status = command
+        .status()
+        .map_err(failed(format!("cannot run {}", script.display())))?;
+    if status.success() {
+        return Ok(());
+    }
+    Err(Failure(format!(
+        "{} failed ({status}); its own words stand above",
+        script.display()
+    )))
+}
+
 /// The name of an interpreter of version 3.10 or later.
 fn system_python() -> Result<&'static str, Failure> {
     const NEEDED: &str = "python3 (3.10 or later) is missing, which flies the FMU in FMPy";

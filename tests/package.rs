@@ -46,6 +46,7 @@ fn the_archive_holds_what_an_importer_and_a_reader_expect() {
         "binaries/linux64/HelicopterRotor.so",
         "documentation/index.html",
         "documentation/diagram.svg",
+        "documentation/fmi-ls-ref.html",
         "documentation/licenses/LICENSE-MIT.txt",
         "documentation/licenses/LICENSE-APACHE.txt",
         "documentation/licenses/THIRD-PARTY.txt",
@@ -62,6 +63,7 @@ fn the_archive_holds_what_an_importer_and_a_reader_expect() {
         "resources/rotors/castles-gray-6ft.toml",
         "resources/rotors/caradonna-tung.toml",
         "resources/rotors/thesis.toml",
+        "extra/org.fmi-standard.fmi-ls-ref/fmi-ls-manifest.xml",
     ] {
         assert!(
             files.get(name).is_some_and(|f| !f.is_empty()),

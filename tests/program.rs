@@ -54,6 +54,7 @@ fn help_names_the_commands_and_what_happens_without_one() {
     let words = String::from_utf8_lossy(&output.stdout);
     for part in [
         "package",
+        "reference",
         "python",
         "Without a command",
         "target/fmu/HelicopterRotor.fmu",

@@ -69,12 +69,14 @@ fn archive(out: impl Write + Seek) -> Result<(), Failure> {
         "documentation/index.html",
         documentation::page(&read("documentation/index.html")?)?.as_bytes(),
     )?;
-    add(
+    for name in [
         "documentation/diagram.svg",
-        &read("documentation/diagram.svg")?,
-    )?;
-    add("model.png", &read("model.png")?)?;
-    for folder in ["licenses", "resources"] {
+        "documentation/fmi-ls-ref.html",
+        "model.png",
+    ] {
+        add(name, &read(name)?)?;
+    }
+    for folder in ["licenses", "resources", "extra"] {
         let inside = if folder == "licenses" {
             "documentation/licenses"
         } else {
