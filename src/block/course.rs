@@ -43,7 +43,8 @@ impl Course {
             }
             let change = slope * duration;
             let (value, off) = (from + change, ROUNDING * change.abs());
-            if !(variable.min - off <= value && value <= variable.max + off) || !value.is_finite() {
+            let range = variable.min - off..=variable.max + off;
+            if !range.contains(&value) || !value.is_finite() {
                 return Err(BlockError::LeavesRange {
                     name: variable.name,
                     value: shown(value),
