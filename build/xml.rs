@@ -74,7 +74,7 @@ fn model_exchange(xml: &mut Xml, table: &Table) -> io::Result<()> {
             ("canNotUseMemoryManagementFunctions", "true"),
             ("canGetAndSetFMUstate", "true"),
             ("canSerializeFMUstate", "true"),
-            ("providesDirectionalDerivative", "false"),
+            ("providesDirectionalDerivative", "true"),
         ])
         .write_empty()?;
     Ok(())
@@ -87,13 +87,13 @@ fn co_simulation(xml: &mut Xml, table: &Table) -> io::Result<()> {
             ("needsExecutionTool", "false"),
             ("canHandleVariableCommunicationStepSize", "true"),
             ("canInterpolateInputs", "true"),
-            ("maxOutputDerivativeOrder", "0"),
+            ("maxOutputDerivativeOrder", "1"),
             ("canRunAsynchronuously", "false"),
             ("canBeInstantiatedOnlyOncePerProcess", "false"),
             ("canNotUseMemoryManagementFunctions", "true"),
             ("canGetAndSetFMUstate", "true"),
             ("canSerializeFMUstate", "true"),
-            ("providesDirectionalDerivative", "false"),
+            ("providesDirectionalDerivative", "true"),
         ])
         .write_empty()?;
     Ok(())

@@ -1,4 +1,4 @@
-//! `HelicopterRotor.fmu`: a helicopter rotor behind the FMI 2.0 co-simulation interface.
+//! `HelicopterRotor.fmu`: a helicopter rotor behind FMI 2.0, for Co-Simulation and Model Exchange.
 //!
 //! Data flows one way: importer, `fmi2`, `block`, `rotor`, and back. `rotor` is the physics,
 //! `block` says which variable feeds which quantity, `fmi2` is the C interface.

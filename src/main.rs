@@ -12,7 +12,7 @@ use std::{
     process::ExitCode,
 };
 
-/// HelicopterRotor.fmu: a helicopter rotor as an FMI 2.0 co-simulation FMU.
+/// HelicopterRotor.fmu: a helicopter rotor as an FMI 2.0 FMU, for Co-Simulation and Model Exchange.
 ///
 /// Without a command: makes target/fmu/HelicopterRotor.fmu, flies the rotors that Knight & Hefner
 /// measured in 1937 with it in FMPy, prints computed beside measured thrust and torque, and draws

@@ -9,11 +9,16 @@ use super::{
 /// By how much of its change an input may miss its limit at the end of a step, by rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// The inputs' derivatives in time, per second, and a place for their values within a step.
+/// Derivatives of inputs in time, per second, by value reference; 0 for what is no input.
+pub type Slopes = [f64; REALS.len()];
+
+/// The inputs' derivatives in time, and a place for their values within a step.
 #[derive(Debug)]
 pub struct Course {
-    /// By value reference; 0 for what is no input.
-    pub slopes: [f64; REALS.len()],
+    /// For the next step.
+    pub slopes: Slopes,
+    /// Those of the last step.
+    pub past: Slopes,
     /// All values at some moment of the step; its strings are not used.
     moment: Values,
 }
@@ -22,6 +27,7 @@ impl Default for Course {
     fn default() -> Self {
         Self {
             slopes: [0.0; REALS.len()],
+            past: [0.0; REALS.len()],
             moment: Values::default(),
         }
     }
@@ -30,6 +36,12 @@ impl Default for Course {
 impl Course {
     pub fn is_moving(&self) -> bool {
         self.slopes.iter().any(|slope| *slope != 0.0)
+    }
+
+    /// Ends a step.
+    pub fn end(&mut self) {
+        self.past = self.slopes;
+        self.slopes = [0.0; REALS.len()];
     }
 
     /// Prepares a step of `duration` s from `start`; an error if an input would leave its range.
@@ -43,7 +55,8 @@ impl Course {
             }
             let change = slope * duration;
             let (value, off) = (from + change, ROUNDING * change.abs());
-            if !((variable.min - off..=variable.max + off).contains(&value) && value.is_finite()) {
+            let range = variable.min - off..=variable.max + off;
+            if !range.contains(&value) || !value.is_finite() {
                 return Err(BlockError::LeavesRange {
                     name: variable.name,
                     value: shown(value),

@@ -70,23 +70,12 @@ impl RotorBlock {
             }
         }
         self.respond_along(&mut reals)?;
-        let change = |unknown: &u32| reals[*unknown as usize].eps;
-        if let Some(bad) = unknowns.iter().find(|u| !change(u).is_finite()) {
-            let names = knowns.iter().map(|k| REALS[*k as usize].name);
-            return Err(DerivativeError::NoDerivative {
-                name: REALS[*bad as usize].name,
-                knowns: names.collect::<Vec<_>>().join(", "),
-                change: change(bad),
-            });
-        }
-        for (slot, unknown) in out.iter_mut().zip(unknowns) {
-            *slot = change(unknown);
-        }
-        Ok(())
+        let along = knowns.iter().map(|k| REALS[*k as usize].name);
+        changes(&reals, unknowns, along, out)
     }
 
-    /// The derivatives of outputs in time, per second, at the present: with the states' own rates and the inputs at
-    /// rest. All or nothing.
+    /// The derivatives of outputs in time, per second, at the present, as a step ends there: with the states' own
+    /// rates, and with those of the inputs in the last step. All or nothing.
     pub fn output_rates(
         &mut self,
         references: &[u32],
@@ -99,10 +88,18 @@ impl RotorBlock {
                 return Err(DerivativeError::NotUnknown { name });
             }
         }
-        let states = STATES.map(|row| row.place as u32);
         let mut rates = [0.0; STATES.len()];
         self.derivatives(&mut rates)?;
-        self.directional_derivative(references, &states, &rates, out)
+        let mut along = self.course.past;
+        for (row, rate) in STATES.iter().zip(rates) {
+            along[row.place] = rate;
+        }
+        let mut reals = self.values.reals.map(Dual64::from_re);
+        for (real, change) in reals.iter_mut().zip(along) {
+            real.eps = change;
+        }
+        self.respond_along(&mut reals)?;
+        changes(&reals, references, ["time"].into_iter(), out)
     }
 
     /// Replaces what is computed among the variables by what the others make of it.
@@ -149,4 +146,25 @@ impl RotorBlock {
         let response = twin.respond(&flight.operation, &state);
         Ok((state, response.map_err(|e| self.unsolved(e))?))
     }
+}
+
+/// The changes of some of the variables, if all are finite; `along`: what they are derivatives by.
+fn changes(
+    reals: &Reals,
+    unknowns: &[u32],
+    along: impl Iterator<Item = &'static str>,
+    out: &mut [f64],
+) -> Result<(), DerivativeError> {
+    let change = |unknown: &u32| reals[*unknown as usize].eps;
+    if let Some(bad) = unknowns.iter().find(|u| !change(u).is_finite()) {
+        return Err(DerivativeError::NoDerivative {
+            name: REALS[*bad as usize].name,
+            knowns: along.collect::<Vec<_>>().join(", "),
+            change: change(bad),
+        });
+    }
+    for (slot, unknown) in out.iter_mut().zip(unknowns) {
+        *slot = change(unknown);
+    }
+    Ok(())
 }

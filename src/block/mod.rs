@@ -230,10 +230,12 @@ impl RotorBlock {
             // A disc that nothing changes answers the same.
             self.memory = advanced;
             write_states(&mut self.values.reals, &advanced.state);
-            return Ok(());
+        } else {
+            let memory = advanced.map_err(|e| self.unsolved(e))?;
+            self.publish(&flight, memory)?;
         }
-        let memory = advanced.map_err(|e| self.unsolved(e))?;
-        self.publish(&flight, memory)
+        self.course.end();
+        Ok(())
     }
 
     fn step_with_moving_inputs(&mut self, duration: f64) -> Result<(), BlockError> {
@@ -263,7 +265,7 @@ impl RotorBlock {
             .map_err(BlockError::from)
             .and_then(|flight| self.publish(&flight, memory));
         match published {
-            Ok(()) => self.course.slopes = [0.0; REALS.len()],
+            Ok(()) => self.course.end(),
             Err(_) => self.values.reals = start,
         }
         published

@@ -3,6 +3,7 @@
 use super::{
     BlockError, Fresh, RotorBlock,
     bytes::{Damage, Reader},
+    course::Slopes,
     integrate::{LONGEST_CELL, Memory, Since},
     setup,
     states::{from_vector, read_states, to_vector, write_states},
@@ -17,7 +18,8 @@ use nalgebra::Vector3;
 pub struct Snapshot {
     values: Values,
     stage: Stage,
-    slopes: [f64; REALS.len()],
+    slopes: Slopes,
+    past_slopes: Slopes,
     memory: Memory,
     fresh: Fresh,
     flow_state: i32,
@@ -29,6 +31,7 @@ impl RotorBlock {
             values: self.values.clone(),
             stage: self.stage,
             slopes: self.course.slopes,
+            past_slopes: self.course.past,
             memory: self.memory,
             fresh: self.fresh,
             flow_state: self.flow_state,
@@ -51,6 +54,7 @@ impl RotorBlock {
         self.values.clone_from(&snapshot.values);
         self.stage = snapshot.stage;
         self.course.slopes = snapshot.slopes;
+        self.course.past = snapshot.past_slopes;
         self.memory = snapshot.memory;
         self.fresh = snapshot.fresh;
         self.flow_state = snapshot.flow_state;
@@ -86,6 +90,7 @@ impl Snapshot {
         };
         reals(&self.values.reals);
         reals(&self.slopes);
+        reals(&self.past_slopes);
         reals(&to_vector(&self.memory.state));
         if let Some(since) = &self.memory.since {
             reals(&[1.0]);
@@ -123,6 +128,7 @@ impl Snapshot {
             ..Values::default()
         };
         let slopes = reader.reals()?;
+        let past_slopes = reader.reals()?;
         let state = from_vector(&reader.reals()?);
         let [is_since] = reader.reals()?;
         let since = match is_since {
@@ -160,6 +166,7 @@ impl Snapshot {
             values,
             stage,
             slopes,
+            past_slopes,
             memory: Memory { state, since },
             fresh,
             flow_state,
@@ -171,12 +178,15 @@ impl Snapshot {
     /// What holds for every block.
     fn check(&self) -> Result<(), Damage> {
         let wrong = |name: &str| Err(Damage::Value(name.to_owned()));
-        let reals = self.values.reals.iter().zip(&self.slopes);
-        for (variable, (value, slope)) in REALS.iter().zip(reals) {
+        let slopes = self.slopes.iter().zip(&self.past_slopes);
+        let reals = self.values.reals.iter().zip(slopes);
+        for (variable, (value, (slope, past))) in REALS.iter().zip(reals) {
             let is_in_range =
                 variable.causality.is_computed() || (variable.min..=variable.max).contains(value);
-            let may_move = variable.causality == Causality::Input || *slope == 0.0;
-            if !value.is_finite() || !slope.is_finite() || !is_in_range || !may_move {
+            let moves = [*slope, *past];
+            let may_move = variable.causality == Causality::Input || moves == [0.0; 2];
+            let is_finite = value.is_finite() && moves.iter().all(|m| m.is_finite());
+            if !is_finite || !is_in_range || !may_move {
                 return wrong(variable.name);
             }
         }

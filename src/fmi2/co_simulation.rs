@@ -6,7 +6,6 @@ use super::{
     common::elements,
     instance::{Instance, Message, Outcome, call, refuse},
     legality::Function,
-    not_offered::not_offered,
     types::*,
 };
 
@@ -62,7 +61,11 @@ pub unsafe extern "C" fn fmi2DoStep(
 pub unsafe extern "C" fn fmi2CancelStep(c: fmi2Component) -> fmi2Status {
     // Legal only while a step runs on, which no step of this FMU does.
     // SAFETY: passed on from the caller.
-    unsafe { not_offered(c, Function::fmi2CancelStep, "canRunAsynchronuously = false") }
+    unsafe {
+        call(c, Function::fmi2CancelStep, |_| {
+            refuse("modelDescription.xml says canRunAsynchronuously = false".into())
+        })
+    }
 }
 
 /// The derivatives hold for the next step: the standard says that inputs and their derivatives are set with
@@ -96,26 +99,6 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2SetRealInputDerivatives, body) }
-}
-
-/// # Safety
-/// As in the standard.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
-    c: fmi2Component,
-    _vr: *const fmi2ValueReference,
-    _nvr: usize,
-    _order: *const fmi2Integer,
-    _value: *mut fmi2Real,
-) -> fmi2Status {
-    // SAFETY: passed on from the caller.
-    unsafe {
-        not_offered(
-            c,
-            Function::fmi2GetRealOutputDerivatives,
-            "maxOutputDerivativeOrder = 0",
-        )
-    }
 }
 
 // ------------------------------------------------------------------ status

@@ -1,0 +1,70 @@
+//! Derivatives: fmi2Functions.h, "Getting partial derivatives" and the derivatives of outputs in time.
+
+#![allow(non_snake_case)]
+
+use super::{
+    common::{elements, elements_mut},
+    instance::{Instance, call, refuse},
+    legality::Function,
+    types::*,
+};
+
+/// # Safety
+/// As in the standard: `vUnknown_ref` and `dvUnknown` have `nUnknown` elements, `vKnown_ref` and `dvKnown`
+/// have `nKnown`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
+    c: fmi2Component,
+    vUnknown_ref: *const fmi2ValueReference,
+    nUnknown: usize,
+    vKnown_ref: *const fmi2ValueReference,
+    nKnown: usize,
+    dvKnown: *const fmi2Real,
+    dvUnknown: *mut fmi2Real,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller.
+        let (unknowns, knowns, along, out) = unsafe {
+            (
+                elements(vUnknown_ref, nUnknown, "vUnknown_ref")?,
+                elements(vKnown_ref, nKnown, "vKnown_ref")?,
+                elements(dvKnown, nKnown, "dvKnown")?,
+                elements_mut(dvUnknown, nUnknown, "dvUnknown")?,
+            )
+        };
+        let block = &mut instance.block;
+        Ok(block.directional_derivative(unknowns, knowns, along, out)?)
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, Function::fmi2GetDirectionalDerivative, body) }
+}
+
+/// # Safety
+/// As in the standard: `vr`, `order` and `value` have `nvr` elements.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    order: *const fmi2Integer,
+    value: *mut fmi2Real,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller.
+        let (vr, order, value) = unsafe {
+            (
+                elements(vr, nvr, "vr")?,
+                elements(order, nvr, "order")?,
+                elements_mut(value, nvr, "value")?,
+            )
+        };
+        if let Some(other) = order.iter().find(|order| **order != 1) {
+            return refuse(format!(
+                "order = {other}; this FMU has first derivatives of its outputs, pass 1"
+            ));
+        }
+        Ok(instance.block.output_rates(vr, value)?)
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, Function::fmi2GetRealOutputDerivatives, body) }
+}
