@@ -8,6 +8,7 @@ mod abi {
     mod capabilities;
     mod course;
     mod dependencies;
+    mod derivatives;
     mod exports;
     mod extremes;
     mod files;

@@ -1,6 +1,7 @@
 //! The capability flags of modelDescription.xml, each against what the library does.
 
-use crate::support::{Creation, Fmu, Instance, c};
+use crate::support::{Creation, Fmu, Instance, c, instance::reference};
+use helicopter_rotor::block::variables::REALS;
 
 /// The attributes of an element of the description.
 fn element(name: &str) -> String {
@@ -68,10 +69,19 @@ fn the_flags_of_both_interfaces_say_what_the_library_does() {
             assert_eq!(instance.real("thrust"), thrust);
         }
 
+        let thrust_reference = reference(&REALS, "thrust");
         let (first, one, mut answer) = (0, 1.0, 0.0);
         // SAFETY: the instance lives, and the pointers have one element.
         let status = unsafe {
-            (f.fmi2GetDirectionalDerivative)(component, &18, 1, &first, 1, &one, &mut answer)
+            (f.fmi2GetDirectionalDerivative)(
+                component,
+                &thrust_reference,
+                1,
+                &first,
+                1,
+                &one,
+                &mut answer,
+            )
         };
         let is = is_offered(&instance, status, "providesDirectionalDerivative");
         check("providesDirectionalDerivative", is);
@@ -101,8 +111,9 @@ fn the_flags_of_both_interfaces_say_what_the_library_does() {
         check("canInterpolateInputs", has_effect);
         let (order, mut slope) = (1, 0.0);
         // SAFETY: the instance lives, and the pointers have one element.
-        let status =
-            unsafe { (f.fmi2GetRealOutputDerivatives)(component, &18, 1, &order, &mut slope) };
+        let status = unsafe {
+            (f.fmi2GetRealOutputDerivatives)(component, &thrust_reference, 1, &order, &mut slope)
+        };
         let is = is_offered(&instance, status, "maxOutputDerivativeOrder");
         let orders = format!(" maxOutputDerivativeOrder=\"{}\"", u8::from(is));
         assert!(said.contains(&orders), "{said}");

@@ -57,9 +57,9 @@ const TABLE: &str = "
     fmi2SerializedFMUstateSize        xxxx xxxxx
     fmi2SerializeFMUstate             xxxx xxxxx
     fmi2DeSerializeFMUstate           xxxx xxxxx
-    fmi2GetDirectionalDerivative      -ooo -oooo
+    fmi2GetDirectionalDerivative      -xxx -xxxx
     fmi2SetRealInputDerivatives       xxx- CCCCC
-    fmi2GetRealOutputDerivatives      --oo CCCCC
+    fmi2GetRealOutputDerivatives      --xx CCCCC
     fmi2DoStep                        --x- CCCCC
     fmi2CancelStep                    ---- CCCCC
     fmi2GetStatus                     --xx CCCCC
@@ -252,6 +252,7 @@ fn with_state(name: &str, f: &Functions, c: Component) -> Status {
 fn call(name: &str, f: &Functions, c: Component) -> Status {
     let first = [0];
     let blades = reference(&INTEGERS, "geometry.numberOfBlades");
+    let thrust = reference(&REALS, "thrust");
     let (mut real, mut integer, mut text) = ([REALS[0].start], [4], [ptr::null()]);
     let empty = [c"".as_ptr()];
     let mut state = ptr::null_mut();
@@ -297,7 +298,7 @@ fn call(name: &str, f: &Functions, c: Component) -> Status {
             | "fmi2SerializeFMUstate"
             | "fmi2DeSerializeFMUstate" => with_state(name, f, c),
             "fmi2GetDirectionalDerivative" => {
-                (f.fmi2GetDirectionalDerivative)(c, r, n, r, n, [1.0].as_ptr(), x)
+                (f.fmi2GetDirectionalDerivative)(c, &thrust, n, r, n, [1.0].as_ptr(), x)
             }
             "fmi2EnterEventMode" => (f.fmi2EnterEventMode)(c),
             "fmi2NewDiscreteStates" => (f.fmi2NewDiscreteStates)(c, &mut info),
@@ -316,7 +317,7 @@ fn call(name: &str, f: &Functions, c: Component) -> Status {
                 (f.fmi2SetRealInputDerivatives)(c, r, n, [1].as_ptr(), x)
             }
             "fmi2GetRealOutputDerivatives" => {
-                (f.fmi2GetRealOutputDerivatives)(c, r, n, [1].as_ptr(), x)
+                (f.fmi2GetRealOutputDerivatives)(c, &thrust, n, [1].as_ptr(), x)
             }
             "fmi2DoStep" => (f.fmi2DoStep)(c, 0.0, 0.1, 1),
             "fmi2CancelStep" => (f.fmi2CancelStep)(c),

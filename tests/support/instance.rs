@@ -461,6 +461,56 @@ impl Instance<'_> {
 
 /// Input derivatives, and the complete state. SAFETY as above.
 impl<'f> Instance<'f> {
+    /// The derivatives of variables along a direction that others take.
+    pub fn along(
+        &self,
+        unknowns: &[Reference],
+        knowns: &[Reference],
+        seeds: &[f64],
+        out: &mut [f64],
+    ) -> Status {
+        assert_eq!((knowns.len(), unknowns.len()), (seeds.len(), out.len()));
+        let get = self.functions.fmi2GetDirectionalDerivative;
+        // SAFETY: see above.
+        unsafe {
+            get(
+                self.component,
+                unknowns.as_ptr(),
+                unknowns.len(),
+                knowns.as_ptr(),
+                knowns.len(),
+                seeds.as_ptr(),
+                out.as_mut_ptr(),
+            )
+        }
+    }
+
+    /// The derivative of one variable by another.
+    #[track_caller]
+    pub fn derivative(&self, unknown: &str, known: &str) -> f64 {
+        let references = [unknown, known].map(|name| reference(&REALS, name));
+        let mut out = [f64::NAN];
+        let status = self.along(&references[..1], &references[1..], &[1.0], &mut out);
+        assert_eq!(status, c::OK, "{:?}", self.take_log());
+        out[0]
+    }
+
+    pub fn output_derivatives(
+        &self,
+        references: &[Reference],
+        orders: &[c_int],
+        out: &mut [f64],
+    ) -> Status {
+        assert_eq!(
+            (references.len(), references.len()),
+            (orders.len(), out.len())
+        );
+        let get = self.functions.fmi2GetRealOutputDerivatives;
+        let (r, n) = (references.as_ptr(), references.len());
+        // SAFETY: see above.
+        unsafe { get(self.component, r, n, orders.as_ptr(), out.as_mut_ptr()) }
+    }
+
     pub fn set_slope(&self, name: &str, slope: f64) -> Status {
         self.set_input_derivatives(&[reference(&REALS, name)], &[1], &[slope])
     }
