@@ -56,6 +56,13 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
         }
         writeln!(out, "}}")?;
     }
+    writeln!(out, "/// Number of the Real inputs, which come first.")?;
+    let inputs = table.of_base(Base::Real);
+    writeln!(
+        out,
+        "pub const INPUTS: usize = {};",
+        inputs.filter(|v| v.causality == "input").count()
+    )?;
     writeln!(out, "/// The continuous states, in their order.")?;
     writeln!(
         out,

@@ -137,6 +137,11 @@ impl Table {
             .collect::<Result<Vec<_>, _>>()
             .map_err(|e| format!("{variables}: {e}"))?;
         table.variables.extend(derivatives);
+        let reals: Vec<&Variable> = table.of_base(Base::Real).collect();
+        if !reals.is_sorted_by_key(|v| v.causality != "input") {
+            return Err(format!("{variables}: the Real inputs must come first").into());
+        }
+        drop(reals);
         for variable in &table.variables {
             table
                 .check(variable)

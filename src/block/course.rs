@@ -3,14 +3,14 @@
 use super::{
     BlockError, Values,
     shown::shown,
-    variables::{Causality, REALS},
+    variables::{INPUTS, REALS},
 };
 
 /// By how much of its change an input may miss its limit at the end of a step, by rounding.
 const ROUNDING: f64 = 1e-9;
 
-/// Derivatives of inputs in time, per second, by value reference; 0 for what is no input.
-pub type Slopes = [f64; REALS.len()];
+/// Derivatives of the inputs in time, per second, by value reference.
+pub type Slopes = [f64; INPUTS];
 
 /// The inputs' derivatives in time, and a place for their values within a step.
 #[derive(Debug)]
@@ -26,8 +26,8 @@ pub struct Course {
 impl Default for Course {
     fn default() -> Self {
         Self {
-            slopes: [0.0; REALS.len()],
-            past: [0.0; REALS.len()],
+            slopes: [0.0; INPUTS],
+            past: [0.0; INPUTS],
             moment: Values::default(),
         }
     }
@@ -41,7 +41,7 @@ impl Course {
     /// Ends a step.
     pub fn end(&mut self) {
         self.past = self.slopes;
-        self.slopes = [0.0; REALS.len()];
+        self.slopes = [0.0; INPUTS];
     }
 
     /// Prepares a step of `duration` s from `start`; an error if an input would leave its range.
@@ -50,7 +50,7 @@ impl Course {
         self.moment.integers = start.integers;
         self.moment.booleans = start.booleans;
         for ((variable, slope), from) in REALS.iter().zip(self.slopes).zip(start.reals) {
-            if variable.causality != Causality::Input || slope == 0.0 {
+            if slope == 0.0 {
                 continue;
             }
             let change = slope * duration;

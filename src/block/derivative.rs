@@ -90,13 +90,12 @@ impl RotorBlock {
         }
         let mut rates = [0.0; STATES.len()];
         self.derivatives(&mut rates)?;
-        let mut along = self.course.past;
-        for (row, rate) in STATES.iter().zip(rates) {
-            along[row.place] = rate;
-        }
         let mut reals = self.values.reals.map(Dual64::from_re);
-        for (real, change) in reals.iter_mut().zip(along) {
-            real.eps = change;
+        for (input, slope) in reals.iter_mut().zip(self.course.past) {
+            input.eps = slope;
+        }
+        for (row, rate) in STATES.iter().zip(rates) {
+            reals[row.place].eps = rate;
         }
         self.respond_along(&mut reals)?;
         changes(&reals, references, ["time"].into_iter(), out)

@@ -1,5 +1,6 @@
 //! The values of all variables, and the rules under which they may be set.
 
+use super::course::Slopes;
 use super::shown::shown;
 use super::variables::{BOOLEANS, Causality, INTEGERS, REALS, STATES, STRINGS, Variable, is_state};
 use thiserror::Error;
@@ -217,7 +218,7 @@ impl Values {
     pub fn set_slopes(
         references: &[u32],
         values: &[f64],
-        slopes: &mut [f64; REALS.len()],
+        slopes: &mut Slopes,
     ) -> Result<(), ValueError> {
         for (reference, value) in references.iter().zip(values) {
             let (_, variable) = find(&REALS, "Real", *reference)?;
