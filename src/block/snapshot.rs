@@ -316,7 +316,7 @@ fn operation_from_numbers(numbers: &[f64; OPERATION]) -> Result<Operation, Damag
 
 #[cfg(test)]
 mod tests {
-    use super::{super::variables::STATES, *};
+    use super::*;
 
     fn bytes(snapshot: &Snapshot) -> Vec<u8> {
         let mut bytes = Vec::new();
