@@ -185,7 +185,7 @@ impl Table {
             nominal: None,
             starts_from: None,
             rate_depends_on: None,
-            description: format!("Derivative of {} in time", state.name),
+            description: "Derivative in time of the state named in the brackets".into(),
             derivative_of: Some(state.name.clone()),
             ..state.clone()
         })

@@ -61,7 +61,7 @@ pub enum BlockError {
 
 /// How much of what is computed belongs to the present inputs, parameters and states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Fresh {
+enum Fresh {
     Nothing,
     Derivatives,
     All,

@@ -190,15 +190,18 @@ impl FmuState {
 /// # Safety
 /// `pointer` is null or comes from this file and was not freed.
 unsafe fn living<'a>(pointer: fmi2FMUstate) -> Result<&'a mut Handle, Message> {
+    let handle = pointer.cast::<Handle>();
+    let foreign = "FMUstate points to no state of this FMU; pass one that was not freed";
+    if !handle.is_aligned() {
+        return Err(Message::Error(foreign.into()));
+    }
     // SAFETY: by the contract above.
-    match unsafe { pointer.cast::<Handle>().as_mut() } {
+    match unsafe { handle.as_mut() } {
         None => Err(Message::Error(
             "FMUstate is a null pointer; pass a state from fmi2GetFMUstate or fmi2DeSerializeFMUstate"
                 .into(),
         )),
-        Some(handle) if handle.mark != ALIVE => Err(Message::Error(
-            "FMUstate points to no state of this FMU; pass one that was not freed".into(),
-        )),
+        Some(handle) if handle.mark != ALIVE => Err(Message::Error(foreign.into())),
         Some(handle) => Ok(handle),
     }
 }

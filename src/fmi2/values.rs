@@ -5,7 +5,7 @@
 use super::{
     common::{elements, elements_mut, text},
     instance::{Instance, Message, call},
-    legality::{Function, INITIALIZATION_MODE},
+    legality::{CONTINUOUS_TIME_MODE, Function, INITIALIZATION_MODE},
     logger::printable,
     types::*,
 };
@@ -52,10 +52,9 @@ pub unsafe extern "C" fn fmi2GetInteger(
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
         let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
-        if vr
-            .iter()
-            .any(|reference| is_computed(&INTEGERS, *reference))
-        {
+        // What is discrete keeps its value in Continuous-Time Mode.
+        let is_held = instance.state == CONTINUOUS_TIME_MODE;
+        if !is_held && vr.iter().any(|r| is_computed(&INTEGERS, *r)) {
             instance.refresh()?;
         }
         Ok(instance.block.values().read_integers(vr, value)?)

@@ -177,9 +177,14 @@ fn inputs_and_their_derivatives_that_wait_for_the_next_step_belong_to_the_state(
     }
 }
 
-/// Model Exchange: what is seen on the way on from the modes in turn.
-fn integrate_on(instance: &Instance, is_continuous: bool) -> Vec<Seen> {
-    let mut all = vec![seen(instance)];
+/// Model Exchange: what is seen on the way on from the modes in turn, and when events are asked for.
+fn integrate_on(instance: &Instance, is_continuous: bool) -> (Vec<Seen>, Vec<bool>) {
+    let (mut all, mut events) = (vec![], vec![]);
+    if is_continuous {
+        // Before anything is computed anew.
+        events.push(instance.completed_step());
+    }
+    all.push(seen(instance));
     if !is_continuous {
         assert_eq!(instance.set_real("air.density", 1.0), c::OK);
         instance.new_discrete_states();
@@ -193,12 +198,12 @@ fn integrate_on(instance: &Instance, is_continuous: bool) -> Vec<Seen> {
         }
         assert_eq!(instance.set_time(1e-3 * f64::from(i + 1)), c::OK);
         assert_eq!(instance.set_states(&x), c::OK);
-        instance.completed_step();
+        events.push(instance.completed_step());
         all.push(seen(instance));
     }
     assert_eq!(instance.terminate(), c::OK);
     all.push(seen(instance));
-    all
+    (all, events)
 }
 
 #[test]
@@ -389,6 +394,13 @@ fn a_state_is_overwritten_where_there_is_one_and_freed_once() {
     assert_eq!(free(ptr::null_mut()), c::OK, "nothing");
     let message = instance.refused(set(pointer));
     assert!(message.contains("null pointer"), "{message}");
+    // Something else of the importer's, as large as it may be asked for.
+    let mut other = [7_u64; 2000];
+    let other = other.as_mut_ptr();
+    for foreign in [other, other.wrapping_byte_add(1)] {
+        let message = instance.refused(set(foreign.cast()));
+        assert!(message.contains("no state of this FMU"), "{message}");
+    }
     let message = instance.refused({
         // SAFETY: null is refused.
         unsafe { (f.fmi2GetFMUstate)(component, ptr::null_mut()) }

@@ -271,6 +271,12 @@ fn wrong_states_are_refused_and_leave_the_old_ones() {
     let status = instance.get_reals(&[reference(&REALS, "thrust")], &mut [0.0]);
     let message = instance.refused(status);
     assert!(message.contains("check the inputs"), "{message}");
+    assert_eq!(
+        instance.integer("flowState"),
+        before.1,
+        "what is held can be read"
+    );
+    assert_eq!(instance.states(), wild);
     assert_eq!(instance.set_states(&x), c::OK);
     assert_eq!(values(&instance), before);
 }
