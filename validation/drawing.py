@@ -42,16 +42,25 @@ def points(i):
         "markerfacecolor": "white",
         "linestyle": "none",
         "zorder": 3,
+        "clip_on": False,
     }
 
 
 def figure(rows, columns, width=8.2, height=3.6, **options):
-    return plt.subplots(rows, columns, figsize=(width, height), layout="constrained", **options)
+    made = plt.subplots(rows, columns, figsize=(width, height), layout="constrained", **options)
+    made[0].get_layout_engine().set(w_pad=0.08, h_pad=0.06)
+    return made
 
 
 def coefficient_axis(axis):
     """Powers of ten of small coefficients in the axis' corner."""
     axis.ticklabel_format(axis="y", style="sci", scilimits=(0, 0), useMathText=True)
+
+
+def from_zero(axis):
+    """The vertical axis from 0 to a little above the highest line."""
+    highest = max(max(line.get_ydata()) for line in axis.get_lines())
+    axis.set_ylim(0.0, 1.08 * highest)
 
 
 def legend_below(figure, axis, columns):

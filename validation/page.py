@@ -23,7 +23,7 @@ def fill(texts):
     places = set(re.findall(r"\{\{([\w.-]+)\}\}", template))
     if missing := places - set(texts):
         raise ValueError(f"page.md has places for which there is no text: {sorted(missing)}")
-    if False and (unused := set(texts) - places):
+    if unused := set(texts) - places:
         raise ValueError(f"page.md has no place for {sorted(unused)}")
     return re.sub(r"\{\{([\w.-]+)\}\}", lambda place: texts[place.group(1)], template)
 

@@ -18,7 +18,7 @@ import rotors
 
 FLAPPING = "wheatley-1934-tr487-pca2-flapping-digitised.csv"
 SPEED = "wheatley-1934-tr487-pca2-CT-rpm-digitised.csv"
-CASE = "PCA-2 autogiro (Wheatley 1934), forward flight"
+CASE = "PCA-2 autogiro 1934, forward flight"
 MODELS = [
     "uniform",
     "annulus",
@@ -37,9 +37,10 @@ MODELS = [
 OTHERS = {
     "tip loss": "pittPetersDynamic with Prandtl's tip loss",
     "section": "pittPetersDynamic with Goettingen 429 computed",
+    "drag": "pittPetersDynamic with twice the section drag",
 }
 # Flown at the advance ratios at which the shaft angle was read, too.
-ANGLED = ["uniform", "pittPetersDynamic", "petersHe"]
+ANGLED = ["uniform", "pittPetersDynamic", "petersHe", "drag"]
 DRAWN = ["uniform", "annulus", "coleman", "pittPetersDynamic", "petersHe"]
 NAMES = {"a0": "coning", "a1": "longitudinal flapping", "b1": "lateral flapping"}
 READING = 0.05  # deg, to which the flapping was read off the report's figure
@@ -93,7 +94,19 @@ def parameters(task, resources, folder):
         file = folder / "pca-2-goettingen429.toml"
         file.write_text(text.replace("wheatley-1934.polar", "goettingen429.polar"), encoding="utf-8")
         chosen["geometry.file"] = str(file)
+    if task == "drag":
+        chosen["geometry.file"] = str(twice_the_drag(resources, folder))
     return chosen
+
+
+def twice_the_drag(resources, folder):
+    """The rotor with twice the drag of the section, for the fittings and cables that it has not."""
+    section = (resources / "airfoils" / "wheatley-1934.polar").read_text(encoding="utf-8")
+    polar, file = folder / "drag.polar", folder / "pca-2-drag.toml"
+    polar.write_text(section.replace(" 0.01200", " 0.02400"), encoding="utf-8")
+    rotor = (resources / "rotors" / "pca-2.toml").read_text(encoding="utf-8")
+    file.write_text(rotor.replace("airfoils/wheatley-1934.polar", str(polar)), encoding="utf-8")
+    return file
 
 
 def edgewise(mu, rpm):
@@ -196,9 +209,10 @@ def report(flown, figures):
         own = flown[task]
         values = [v for _, v in points(SPEED, "alpha_deg")]
         angles = [f["angle"] for f in own["angles"]]
-        found.errors.append(errors.degrees(CASE, "shaft angle", task, angles, values, ANGLE_READING))
+        name = named[task]
+        found.errors.append(errors.degrees(CASE, "shaft angle", name, angles, values, ANGLE_READING))
         thrust = [at("CT", mu) for mu in RATIOS]
-        found.errors.append(errors.percent(CASE, "CT", task, [f["CT"] for f in own["flights"]], thrust))
+        found.errors.append(errors.percent(CASE, "CT", name, [f["CT"] for f in own["flights"]], thrust))
     speeds = points(SPEED, "N_rpm")
     turning = [flown[task]["rpm"] for task in SPEEDS]
     found.errors.append(errors.percent(CASE, "rotor speed", "pittPetersDynamic", turning, [n for _, n in speeds]))
@@ -245,18 +259,19 @@ def draw_autorotation(flown, file):
     figure, axes = drawing.figure(1, 3, height=4.2)
     for i, task in enumerate(ANGLED):
         flights = flown[task]["flights"]
-        axes[0].plot(RATIOS, [f["angle"] for f in flights], **drawing.line(i), label=task)
+        axes[0].plot(RATIOS, [f["angle"] for f in flights], **drawing.line(i), label=OTHERS.get(task, task))
         axes[1].plot(RATIOS, [f["CT"] for f in flights], **drawing.line(i))
     ratios = [mu for mu, _ in points(SPEED, "N_rpm")]
     axes[2].plot(ratios, [flown[task]["rpm"] for task in SPEEDS], **drawing.line(1))
     axes[0].plot(*zip(*points(SPEED, "alpha_deg")), **drawing.points(0), label="measured")
     axes[1].plot(*zip(*points(SPEED, "CT")), **drawing.points(0))
     axes[2].plot(*zip(*points(SPEED, "N_rpm")), **drawing.points(0))
-    axes[0].set(ylabel="shaft angle of attack, deg", ylim=(0, None))
+    axes[0].set(ylabel="shaft angle of attack, deg")
+    axes[0].axhline(0.0, color="0.5", linewidth=0.8)
     axes[1].set(ylabel="thrust coefficient CT", ylim=(0, None))
-    axes[2].set(ylabel="rotor speed without an engine, rev/min", ylim=(0, None))
+    axes[2].set(ylabel="rotor speed without an engine, rev/min", ylim=(0, 170))
     drawing.coefficient_axis(axes[1])
     for axis in axes:
         axis.set(xlabel=r"advance ratio $\mu$", xlim=(0, 0.72))
-    drawing.legend_below(figure, axes[0], 4)
+    drawing.legend_below(figure, axes[0], 3)
     drawing.save(figure, file)

@@ -66,8 +66,9 @@ def draw(flown, file):
                 values = [f[place] for f in flown[f"{case}; {name}"]["flights"]]
                 axis.plot(RATIOS, values, **drawing.line(i), label=name)
             drawing.coefficient_axis(axis)
-            axis.set(xlim=(-1, 1), ylim=(0, None))
-        axes[0][column].set_title(case.replace("4 blades, ", ""), fontsize=9)
+            axis.set(xlim=(-1, 1))
+            drawing.from_zero(axis)
+        axes[0][column].set_title(case.replace("4 blades, ", ""), fontsize=9, pad=16)
         axes[1][column].set_xlabel("rate of climb $V_c/V_h$")
     axes[0][0].set_ylabel("thrust coefficient CT")
     axes[1][0].set_ylabel("power coefficient CP")

@@ -32,7 +32,7 @@ OUTPUTS = ("thrustCoefficient", "torqueCoefficient", "inducedVelocity")
 LOWEST, HIGHEST = -12.0, 25.0  # deg of collective
 # CT and speed of the lines.
 LINES = ((0.002, 1200.0), (0.004, 1200.0), (0.005, 1600.0))
-DESCENTS = [0.05 * i for i in range(53)]
+DESCENTS = [i / 20 for i in range(53)]
 JUMP = 0.01  # of the thrust: where no collective gives it, the search ends at a jump
 
 
@@ -52,7 +52,11 @@ def fly(rotor, task, _resources):
         at = lambda pitch: rotor.fly(
             OUTPUTS, collective=math.radians(pitch), rpm=rpm, **{"velocity[3]": -ratio * speed}
         )
-        pitch = brentq(lambda pitch: at(pitch)[0] - thrust, LOWEST, HIGHEST, xtol=1e-4)
+        surplus = lambda pitch: at(pitch)[0] - thrust
+        # The lowest collective of those with this thrust: others are beyond stall or, in momentum theory
+        # past 2 v_h, on the branch that is not the windmill's.
+        high = next(p for p in np.arange(LOWEST, HIGHEST) if surplus(p) > 0.0)
+        pitch = brentq(surplus, high - 1.0, high, xtol=1e-4)
         own, torque, induced = at(pitch)
         return pitch, torque - drag(rpm), induced / speed, abs(own / thrust - 1.0) < JUMP
 
@@ -204,4 +208,7 @@ def thin_points():
 def panel(axis, flown, line, place):
     for i, task in enumerate(DRAWN):
         values = [p[place] if p[3] else math.nan for p in flown[task]["lines"][line]]
-        axis.plot(DESCENTS, values, **drawing.line(i), label=task.replace(" ", ", "))
+        # Momentum theory jumps to the windmill at 2 v_h.
+        cut = DESCENTS.index(2.0) + 1 if task.startswith("momentum") else len(DESCENTS)
+        axis.plot(DESCENTS[:cut], values[:cut], **drawing.line(i), label=task.replace(" ", ", "))
+        axis.plot(DESCENTS[cut:], values[cut:], **drawing.line(i))

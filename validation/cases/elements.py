@@ -82,11 +82,11 @@ def draw(flown, file):
         for i, case in enumerate(CASES):
             for inflow, marker in zip(INFLOWS, ("", "o")):
                 values = [v[place] for v in flown[f"{case}; {inflow}"]["values"]]
-                away = [100.0 * (v / values[-1] - 1.0) for v in values[:-1]]
+                away = [100.0 * abs(v / values[-1] - 1.0) for v in values[:-1]]
                 style = drawing.line(i) | {"marker": marker, "markersize": 3, "linewidth": 1.1}
                 axis.plot(COUNTS[:-1], away, **style, label=f"{case}, {inflow}")
-        axis.set(xscale="log", xlabel="blade elements", ylabel=f"{name} against that of {COUNTS[-1]} elements, %")
-        axis.set_yscale("symlog", linthresh=0.1)
+        axis.set(xscale="log", yscale="log", xlabel="blade elements")
+        axis.set_ylabel(f"difference of {name} from that of {COUNTS[-1]} elements, %")
         axis.set_xticks([10, 20, 40, 80, 120, 300, 700], labels=["10", "20", "40", "80", "120", "300", "700"])
         axis.minorticks_off()
     drawing.legend_below(figure, axes[0], 2)

@@ -71,8 +71,9 @@ def draw(flown, file):
                     style = drawing.line(i) | {"linewidth": 1.1, "marker": marker, "markersize": 4, "markevery": 2}
                     axis.plot(RATIOS, values, **style, label=f"{lift}, compressibility {rule}")
             drawing.coefficient_axis(axis)
-            axis.set(xlim=(-1, 1), ylim=(0, None))
-        axes[0][column].set_title(case.replace("4 blades, ", ""), fontsize=9)
+            axis.set(xlim=(-1, 1))
+            drawing.from_zero(axis)
+        axes[0][column].set_title(case.replace("4 blades, ", ""), fontsize=9, pad=16)
         axes[1][column].set_xlabel("rate of climb $V_c/V_h$")
     axes[0][0].set_ylabel("thrust coefficient CT")
     axes[1][0].set_ylabel("power coefficient CP")

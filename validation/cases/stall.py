@@ -1,44 +1,46 @@
 """The thesis' study of stalled stations (Lovaco 2017, section 4.2): the last stalled and the first attached blade element
-in hover."""
+in hover, counted from the root; and from which collective on anything stalls."""
 
 import math
 from pathlib import Path
-
-import numpy as np
 
 import drawing
 import page
 import rotors
 
 ELEMENTS = 120
-LIFTS = {
+SETTINGS = {
     "thesisSlope, annulusClosedForm": {**rotors.THESIS_CHOICES},
     "thesisSlope, annulus": {**rotors.THESIS_CHOICES, "model.inflow": "annulus"},
     "table, annulus": {"model.inflow": "annulus"},
 }
+# Pitches of the table, root cutout, radius.
 CASES = {
-    "thesis, 15.3 deg": (15.3, rotors.THESIS_RADIUS, 0.1),
-    "thesis, 16.9 deg": (16.9, rotors.THESIS_RADIUS, 0.1),
-    "Knight & Hefner, 4 blades, 12 deg": (12.0, rotors.KNIGHT_HEFNER_RADIUS, 1.0 / 6.0),
-    "Knight & Hefner, 4 blades, 16.9 deg": (16.9, rotors.KNIGHT_HEFNER_RADIUS, 1.0 / 6.0),
+    "thesis": (rotors.THESIS_PITCHES, 0.1, rotors.THESIS_RADIUS),
+    "Knight & Hefner, 4 blades": ((12.0, *rotors.THESIS_PITCHES), 1.0 / 6.0, rotors.KNIGHT_HEFNER_RADIUS),
 }
-TASKS = [f"{case}; {lift}" for case in CASES for lift in LIFTS]
+TASKS = [f"{case}; {setting}" for case in CASES for setting in SETTINGS]
 STATIONS = range(1, 21)
+SWEEP = [10.0 + 0.25 * i for i in range(81)]
+OUTPUTS = ("stalledRadius", "stalledFraction")
 
 
 def fly(rotor, task, resources):
-    case, lift = task.split("; ")
-    pitch, _, _ = CASES[case]
+    case, setting = task.split("; ")
     with rotors.own_folder() as folder:
-        own = rotors.THESIS if case.startswith("thesis") else rotors.knight_hefner_slopes(4, resources, Path(folder))
-        chosen = {**own, **LIFTS[lift], "collective": math.radians(pitch), "numerics.elements": ELEMENTS}
+        own = rotors.THESIS if case == "thesis" else rotors.knight_hefner_slopes(4, resources, Path(folder))
+        chosen = {**own, **SETTINGS[setting], "numerics.elements": ELEMENTS}
         rotor.start(chosen)
-        along = lambda name: rotor.fly([f"station[{i}].{name}" for i in STATIONS])
+        stations = lambda name, pitch: rotor.fly(
+            [f"station[{i}].{name}" for i in STATIONS], collective=math.radians(pitch)
+        )
+        stalled = lambda pitch: rotor.fly(OUTPUTS, collective=math.radians(pitch))
+        pitches = CASES[case][0]
         return {
-            "stalled": rotor.fly(("stalledRadius", "stalledFraction")),
-            "radius": along("radius"),
-            "angle": [math.degrees(a) for a in along("angleOfAttack")],
-            "reynolds": along("reynolds"),
+            "radius": stations("radius", pitches[0]),
+            "angles": {p: [math.degrees(a) for a in stations("angleOfAttack", p)] for p in pitches},
+            "stalled": {p: stalled(p) for p in pitches},
+            "sweep": [stalled(p) for p in SWEEP],
             "models": rotor.models(chosen),
         }
 
@@ -46,42 +48,50 @@ def fly(rotor, task, resources):
 def report(flown, figures):
     found = page.Report()
     cells = []
-    for case, (_, radius, cutout) in CASES.items():
+    for case, (pitches, cutout, radius) in CASES.items():
         width = (1.0 - cutout) / ELEMENTS
-        for lift in LIFTS:
-            own = flown[f"{case}; {lift}"]
-            last, fraction = own["stalled"]
-            cell = [case, *(f"`{part}`" for part in lift.split(", "))]
-            if last > 0.0:
-                first = last + width
-                cell += [f"{last:.3f}", f"{last * radius:.3f}"]
-                cell += [f"{first:.3f}", f"{first * radius:.3f}"] if first < 1.0 else ["-", "-"]
-            else:
-                cell += ["none", "-", f"{cutout + 0.5 * width:.3f}", f"{(cutout + 0.5 * width) * radius:.3f}"]
-            cells.append([*cell, f"{100.0 * fraction:.0f} %"])
-    header = ["rotor", "lift", "inflow", "last stalled, r/R", "m", "first attached, r/R", "m", "span stalled"]
+        for setting in SETTINGS:
+            own = flown[f"{case}; {setting}"]
+            onset = next(((p, last) for p, (last, _) in zip(SWEEP, own["sweep"]) if last > 0.0), None)
+            for pitch in pitches:
+                last, fraction = own["stalled"][pitch]
+                first = last + width if last > 0.0 else cutout + 0.5 * width
+                in_metres = lambda r: f"{r:.3f} ({r * radius:.3f} m)"
+                cells.append(
+                    [
+                        case,
+                        f"`{setting}`",
+                        f"{pitch:g}",
+                        in_metres(last) if last > 0.0 else "none",
+                        in_metres(first) if first < 1.0 else "none",
+                        f"{100.0 * fraction:.0f} %",
+                        f"{onset[0]:.1f} deg at r/R {onset[1]:.2f}" if onset else f"above {SWEEP[-1]:g} deg",
+                    ]
+                )
+    header = ["rotor", "lift, inflow", "pitch, deg", "last stalled, r/R", "first attached beyond it, r/R", "span stalled", "first stall"]
     draw(flown, figures / "stall.svg")
     found.texts = {
-        "stall.table": page.table(header, cells, 3),
+        "stall.table": page.table(header, cells, 2),
         "stall.models": flown[TASKS[0]]["models"],
     }
     return found
 
 
 def draw(flown, file):
-    figure, axes = drawing.figure(1, 2, height=3.9, sharey=True)
-    for axis, pair in zip(axes, (list(CASES)[:2], list(CASES)[2:])):
-        for i, case in enumerate(pair):
-            for lift, marker in (("thesisSlope, annulus", ""), ("table, annulus", ".")):
-                own = flown[f"{case}; {lift}"]
-                style = drawing.line(i) | {"marker": marker}
-                axis.plot(own["radius"], own["angle"], **style, label=f"{case.split(', ')[-1]}, {lift.split(',')[0]}")
-                last = own["stalled"][0]
-                if last > 0.0:
-                    height = float(np.interp(last, own["radius"], own["angle"]))
-                    axis.plot([last], [height], **drawing.points(1) | {"markersize": 6})
-        axis.plot([], [], **drawing.points(1), label="last stalled element")
-        axis.set(xlabel="radius r/R", xlim=(0, 1), title=pair[0].rsplit(",", 1)[0])
-        axis.legend()
-    axes[0].set_ylabel("angle of attack, deg")
+    figure, (by_radius, by_pitch) = drawing.figure(1, 2, height=4.6)
+    for j, (case, (pitches, _, _)) in enumerate(CASES.items()):
+        own = flown[f"{case}; thesisSlope, annulus"]
+        for i, pitch in enumerate(rotors.THESIS_PITCHES):
+            style = drawing.line(i) | {"marker": ("", "o")[j], "markersize": 3}
+            by_radius.plot(own["radius"], own["angles"][pitch], **style, label=f"{case}, {pitch} deg")
+        for i, setting in enumerate(SETTINGS):
+            values = [100.0 * fraction for _, fraction in flown[f"{case}; {setting}"]["sweep"]]
+            style = drawing.line(i) | {"marker": ("", "o")[j], "markersize": 3, "markevery": 5}
+            by_pitch.plot(SWEEP, values, **style, label=f"{case}, {setting}")
+    for pitch in rotors.THESIS_PITCHES:
+        by_pitch.axvline(pitch, color="0.6", linewidth=0.8)
+    by_radius.set(xlabel="radius r/R", ylabel="angle of attack, deg", xlim=(0, 1), ylim=(0, None))
+    by_pitch.set(xlabel="collective, deg", ylabel="share of the span that is stalled, %", xlim=(10, 30), ylim=(-2, 102))
+    for axis in (by_radius, by_pitch):
+        axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), frameon=False, fontsize=7.5)
     drawing.save(figure, file)
