@@ -55,6 +55,7 @@ fn help_names_the_commands_and_what_happens_without_one() {
     for part in [
         "package",
         "python",
+        "validate",
         "Without a command",
         "target/fmu/HelicopterRotor.fmu",
     ] {

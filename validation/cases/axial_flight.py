@@ -47,7 +47,7 @@ def report(flown, figures):
             flights = flown[f"{case}; {name}"]["flights"]
             for place, quantity in enumerate(("CT", "CP")):
                 values = [flights[RATIOS.index(r)][place] for r in SHOWN]
-                cells.append([case, name, quantity, *(f"{v:.5f}" for v in values)])
+                cells.append([case, name, quantity, *(f"{v:.{(5, 6)[place]}f}" for v in values)])
     header = ["rotor", "flown as", "", *(f"V_c/V_h = {r:g}" for r in SHOWN)]
     draw(flown, figures / "axial-flight.svg")
     found.texts = {

@@ -16,6 +16,8 @@ import measured
 import page
 import rotors
 
+from . import castles_gray
+
 FILE = "castles-gray-1951-tn2474-tableI-descent-6ft.csv"
 CASE = "Castles & Gray 1951, descent"
 LAW_FOLDER = Path(__file__).resolve().parents[2] / "descent-law"
@@ -26,6 +28,7 @@ LAWS = [
     ("measured", "finiteBlades"),
     ("johnson", "uniform"),
 ]
+HELD_OUT = "measured, fitted to the other half of the runs"
 DRAWN = ["momentum uniform", "measured uniform", "johnson uniform"]
 TASKS = [" ".join(law) for law in LAWS] + ["law"]
 OUTPUTS = ("thrustCoefficient", "torqueCoefficient", "inducedVelocity")
@@ -33,6 +36,7 @@ LOWEST, HIGHEST = -12.0, 25.0  # deg of collective
 # CT and speed of the lines.
 LINES = ((0.002, 1200.0), (0.004, 1200.0), (0.005, 1600.0))
 DESCENTS = [i / 20 for i in range(53)]
+OTHERS = "**the other runs**"
 JUMP = 0.01  # of the thrust: where no collective gives it, the search ends at a jump
 
 
@@ -76,8 +80,9 @@ def fly(rotor, task, _resources):
 
 
 def halves():
-    """The law of descent fitted to half of the runs, on either half: RMS of v/v_h, and in deg of collective what
-    that is worth to a rotor at the runs' thrust (collective at 0.75 R: 3/2 of the change in inflow ratio)."""
+    """The law of descent fitted to half of the runs, on either half: errors of v/v_h (each run over its own hover
+    value) and in deg of collective what they are worth to a rotor at the run's thrust (3/2 of the change in inflow
+    ratio, from CT = sigma a/2 (theta_0.75/3 - lambda/2))."""
     sys.path.insert(0, str(LAW_FOLDER))
     import fit
 
@@ -88,7 +93,7 @@ def halves():
     def judged(g, chosen):
         parts = [fit.errors(lambda d: fit.induced(g, d), [runs[n]]) for n in chosen]
         worth = [1.5 * math.degrees(1.0) * math.sqrt(0.5 * thrust[n]) * p for n, p in zip(chosen, parts)]
-        return errors.rms(np.concatenate(parts)), errors.rms(np.concatenate(worth))
+        return np.concatenate(parts).tolist(), np.concatenate(worth).tolist()
 
     found = [("all runs", "the same", *judged(fit.law(fit.fit([runs[n] for n in names])), names))]
     for own in (names[0::2], names[1::2]):
@@ -96,7 +101,7 @@ def halves():
         others = [n for n in names if n not in own]
         said = f"runs {', '.join(map(str, own))}"
         found.append((said, "the same", *judged(g, own)))
-        found.append((said, "**the other runs**", *judged(g, others)))
+        found.append((said, OTHERS, *judged(g, others)))
     return found
 
 
@@ -145,12 +150,18 @@ def report(flown, figures):
         ]
     found.errors.sort(key=lambda e: ("collective", "torque rise", "induced velocity").index(e.quantity))
     draw(flown, data, figures)
-    halves_table = [[own, on, f"{velocity:.2f}", f"{angle:.2f}"] for own, on, velocity, angle in flown["law"]]
+    halves_table = [
+        [own, on, f"{errors.rms(velocity):.2f}", f"{errors.rms(angle):.2f}"] for own, on, velocity, angle in flown["law"]
+    ]
+    unseen = np.concatenate([angle for _, on, _, angle in flown["law"] if on == OTHERS])
+    turns = scatter(data, lambda r: r["theta_075R_deg"])
+    found.errors.append(errors.degrees(CASE, "inflow, in deg of collective", HELD_OUT, unseen, 0.0 * unseen, turns))
     jumps = {
         f"{law}, {inflow}": sum(not p[3] for p in flown[f"{law} {inflow}"]["points"]) for law, inflow in LAWS
     }
     found.texts = {
-        "descent.errors": page.error_table(found.errors),
+        "descent.errors": page.error_table([e for e in found.errors if e.model != HELD_OUT]),
+        "descent.hover-torque": hover_torques(data),
         "descent.models": flown["measured uniform"]["models"],
         "descent.halves": page.table(
             ["fitted to", "judged on", "RMS of v/v_h", "worth in collective, deg RMS"], halves_table, 2
@@ -158,6 +169,18 @@ def report(flown, figures):
         "descent.jumps": ", ".join(f"{count} with `{name}`" for name, count in jumps.items() if count) or "none",
     }
     return found
+
+
+def hover_torques(data):
+    """The rise of torque in hover at a CT in this table, and between the points of the other."""
+    of_runs = [r["DeltaCQ"] for r in data if r["CT"] == 0.004 and r["lambda_z"] == 0.0 and r["DeltaCQ"] is not None]
+    there = []
+    for rpm in castles_gray.SPEEDS:
+        for rows_of_run in castles_gray.runs(rpm).values():
+            own = [(r["CT"], r["DeltaCQ"]) for r in rows_of_run if r["DeltaCQ"] is not None]
+            there.append(float(np.interp(0.004, *zip(*own))))
+    between = lambda values: f"{min(values):.6f} to {max(values):.6f}"
+    return f"{between(there)} in Table V and {between(of_runs)} in Table I"
 
 
 def scatter(data, quantity):

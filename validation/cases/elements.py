@@ -47,10 +47,10 @@ def fly(rotor, task, resources):
 
 
 def settled(values, digits=3):
-    """The first count from which on this many digits are those at the last."""
-    rounded = [f"{v:.{digits - 1}e}" for v in values]
-    last = max((i for i, r in enumerate(rounded) if r != rounded[-1]), default=-1)
-    return COUNTS[last + 1]
+    """The first count from which on this many digits stand: half a unit of the last of them from the last value."""
+    unit = 10.0 ** (math.floor(math.log10(abs(values[-1]))) + 1 - digits)
+    away = [i for i, v in enumerate(values) if abs(v - values[-1]) > 0.5 * unit]
+    return COUNTS[max(away, default=-1) + 1]
 
 
 def report(flown, figures):
@@ -62,7 +62,7 @@ def report(flown, figures):
             for name, values in (("CT", thrust), ("CP", power)):
                 own = [f"{values[COUNTS.index(n)]:.4e}" for n in SHOWN]
                 cells.append([case, f"`{inflow}`", name, *own, settled(values)])
-    header = ["rotor", "inflow", "", *map(str, SHOWN), "third digit stands from"]
+    header = ["rotor", "inflow", "", *map(str, SHOWN), "three digits stand from"]
     draw(flown, figures / "elements.svg")
     found.texts = {
         "elements.table": page.table(header, cells, 3),

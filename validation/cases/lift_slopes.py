@@ -49,7 +49,7 @@ def report(flown, figures):
             cell = [case, f"`{lift}`"]
             for place in (0, 1):
                 plain, corrected = hover[0][place], hover[1][place]
-                cell += [f"{plain:.5f}", f"{corrected:.5f}", page.number(100.0 * (corrected / plain - 1.0), "%", True)]
+                cell += [f"{plain:.{5 + place}f}", f"{corrected:.{5 + place}f}", page.number(100.0 * (corrected / plain - 1.0), "%", True)]
             cells.append(cell)
     header = ["rotor", "lift", "CT `none`", "CT `karmanTsien`", "%", "CP `none`", "CP `karmanTsien`", "%"]
     draw(flown, figures / "lift-slopes.svg")

@@ -14,10 +14,10 @@ SETTINGS = {
     "thesisSlope, annulus": {**rotors.THESIS_CHOICES, "model.inflow": "annulus"},
     "table, annulus": {"model.inflow": "annulus"},
 }
-# Pitches of the table, root cutout, radius.
+# Root cutout, radius.
 CASES = {
-    "thesis": (rotors.THESIS_PITCHES, 0.1, rotors.THESIS_RADIUS),
-    "Knight & Hefner, 4 blades": ((12.0, *rotors.THESIS_PITCHES), 1.0 / 6.0, rotors.KNIGHT_HEFNER_RADIUS),
+    "thesis": (0.1, rotors.THESIS_RADIUS),
+    "Knight & Hefner, 4 blades": (1.0 / 6.0, rotors.KNIGHT_HEFNER_RADIUS),
 }
 TASKS = [f"{case}; {setting}" for case in CASES for setting in SETTINGS]
 STATIONS = range(1, 21)
@@ -35,7 +35,7 @@ def fly(rotor, task, resources):
             [f"station[{i}].{name}" for i in STATIONS], collective=math.radians(pitch)
         )
         stalled = lambda pitch: rotor.fly(OUTPUTS, collective=math.radians(pitch))
-        pitches = CASES[case][0]
+        pitches = rotors.THESIS_PITCHES
         return {
             "radius": stations("radius", pitches[0]),
             "angles": {p: [math.degrees(a) for a in stations("angleOfAttack", p)] for p in pitches},
@@ -48,27 +48,27 @@ def fly(rotor, task, resources):
 def report(flown, figures):
     found = page.Report()
     cells = []
-    for case, (pitches, cutout, radius) in CASES.items():
+    for case, (cutout, radius) in CASES.items():
         width = (1.0 - cutout) / ELEMENTS
+        in_metres = lambda r: f"{r:.3f} ({r * radius:.3f} m)"
         for setting in SETTINGS:
             own = flown[f"{case}; {setting}"]
-            onset = next(((p, last) for p, (last, _) in zip(SWEEP, own["sweep"]) if last > 0.0), None)
-            for pitch in pitches:
+            cell = [case, f"`{setting}`"]
+            for pitch in rotors.THESIS_PITCHES:
                 last, fraction = own["stalled"][pitch]
                 first = last + width if last > 0.0 else cutout + 0.5 * width
-                in_metres = lambda r: f"{r:.3f} ({r * radius:.3f} m)"
-                cells.append(
-                    [
-                        case,
-                        f"`{setting}`",
-                        f"{pitch:g}",
-                        in_metres(last) if last > 0.0 else "none",
-                        in_metres(first) if first < 1.0 else "none",
-                        f"{100.0 * fraction:.0f} %",
-                        f"{onset[0]:.1f} deg at r/R {onset[1]:.2f}" if onset else f"above {SWEEP[-1]:g} deg",
-                    ]
-                )
-    header = ["rotor", "lift, inflow", "pitch, deg", "last stalled, r/R", "first attached beyond it, r/R", "span stalled", "first stall"]
+                cell.append(in_metres(last) if last > 0.0 else "none")
+                cell.append(in_metres(first) if first < 1.0 else "none")
+                cell.append(f"{100.0 * fraction:.0f} %")
+            onset = next(((p, last) for p, (last, _) in zip(SWEEP, own["sweep"]) if last > 0.0), None)
+            cell.append(f"{onset[0]:.2f} deg, at r/R {onset[1]:.2f}" if onset else f"above {SWEEP[-1]:g} deg")
+            cells.append(cell)
+    of_pitch = [
+        f"{what} at {pitch} deg"
+        for pitch in rotors.THESIS_PITCHES
+        for what in ("last stalled", "first attached", "span stalled")
+    ]
+    header = ["rotor", "lift, inflow", *of_pitch, "stall begins"]
     draw(flown, figures / "stall.svg")
     found.texts = {
         "stall.table": page.table(header, cells, 2),
@@ -79,7 +79,7 @@ def report(flown, figures):
 
 def draw(flown, file):
     figure, (by_radius, by_pitch) = drawing.figure(1, 2, height=4.6)
-    for j, (case, (pitches, _, _)) in enumerate(CASES.items()):
+    for j, case in enumerate(CASES):
         own = flown[f"{case}; thesisSlope, annulus"]
         for i, pitch in enumerate(rotors.THESIS_PITCHES):
             style = drawing.line(i) | {"marker": ("", "o")[j], "markersize": 3}
