@@ -3,6 +3,7 @@
 mod fly;
 mod package;
 mod python;
+mod summary;
 mod validate;
 
 use clap::{Parser, Subcommand};

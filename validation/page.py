@@ -61,4 +61,3 @@ def error_table(rows):
         for e in rows
     ]
     return table(header, cells, 2)
-

@@ -1,6 +1,7 @@
 """The packaged FMU in FMPy: unzipped once, one instance in each process, reset between flights."""
 
 import math
+
 from fmpy import calloc, free, read_model_description
 from fmpy.fmi1 import FMICallException
 from fmpy.fmi2 import (

@@ -27,9 +27,15 @@ CHOSEN = [
     (DESCENT, "collective", "johnson, uniform", "`uniform`, descent `johnson`", "the same, johnson"),
     (DESCENT, "collective", "momentum, uniform", "`uniform`, descent `momentum`", "the same, momentum"),
     (FORWARD, "coning", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: coning"),
-    (FORWARD, "longitudinal flapping", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: longitudinal flapping"),
+    (
+        FORWARD,
+        "longitudinal flapping",
+        "pittPetersDynamic",
+        "`pittPetersDynamic`",
+        "autogiro: longitudinal flapping",
+    ),
     (FORWARD, "lateral flapping", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: lateral flapping"),
-    (FORWARD, "lateral flapping", "annulus", "defaults (`annulus`)", "the same, annulus"),
+    (FORWARD, "lateral flapping", "annulus", "`annulus`", "the same, annulus"),
     (FORWARD, "shaft angle", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: shaft angle"),
     (FORWARD, "CT", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: CT"),
     (FORWARD, "rotor speed", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: rotor speed"),
@@ -44,7 +50,7 @@ def chosen(rows):
 def table(rows):
     cells = []
     for e, name, _ in chosen(rows):
-        said = lambda value, signed=False: f"{page.number(value, e.unit, signed)} {e.unit}"
+        said = lambda value, signed=False, unit=e.unit: f"{page.number(value, unit, signed)} {unit}"
         scatter = said(e.scatter) if e.scatter is not None else "-"
         means = said(e.mean, True), said(e.mean_absolute), said(e.rms), said(e.worst, True)
         cells.append([e.case, e.quantity, name, e.points, *means, scatter])
@@ -61,11 +67,18 @@ def draw(rows, file):
         own = [(e, short) for e, _, short in chosen(rows) if e.unit == unit]
         for i, (e, _) in enumerate(own):
             once = i == 0
-            axis.barh(i, e.rms, color="0.82", edgecolor="black", linewidth=0.6, label="RMS error" if once else None)
+            axis.barh(
+                i, e.rms, color="0.82", edgecolor="black", linewidth=0.6, label="RMS error" if once else None
+            )
             axis.plot([abs(e.mean)], [i], "kD", markersize=4, label="mean error, magnitude" if once else None)
             if e.scatter is not None:
                 style = {"color": "#b03a2e", "linewidth": 2.0}
-                axis.plot([e.scatter] * 2, [i - 0.4, i + 0.4], **style, label="scatter of the measurement" if once else None)
+                axis.plot(
+                    [e.scatter] * 2,
+                    [i - 0.4, i + 0.4],
+                    **style,
+                    label="scatter of the measurement" if once else None,
+                )
         axis.set_yticks(range(len(own)), [short for _, short in own])
         axis.invert_yaxis()
         axis.grid(axis="y", visible=False)

@@ -1,38 +1,29 @@
 //! The files that follow from a run: docs/validation.md, docs/validation/ with the figures, and the README's summary.
 
 use super::{beside, compare, replace_folder};
-use crate::{Failure, failed};
+use crate::{Failure, failed, summary};
 use std::{
     collections::BTreeSet,
     fs,
     path::{Path, PathBuf},
 };
 
-/// The README's summary stands between two of these.
-const MARK: &str = "<!-- measured -->";
 const PAGE: &str = "validation.md";
 const FIGURES: &str = "validation";
 const SUMMARY: &str = "summary.md";
 
-fn project() -> &'static Path {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-}
-
 fn docs() -> PathBuf {
-    project().join("docs")
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("docs")
 }
 
 /// Whether the README has a place for the summary: asked before the flights, which take a minute.
 pub fn ready() -> Result<(), Failure> {
-    around_summary(&read(&project().join("README.md"))?).map(|_| ())
+    summary::read().map(|_| ())
 }
 
 /// Puts a run's page, figures and summary in their places.
 pub fn write(run: &Path) -> Result<(), Failure> {
-    let readme = project().join("README.md");
-    let old = read(&readme)?;
-    let (before, _, after) = around_summary(&old)?;
-    let new = format!("{before}{MARK}\n{}{MARK}{after}", read(&run.join(SUMMARY))?);
+    let readme = summary::replaced(&read(&run.join(SUMMARY))?)?;
     let page = read(&run.join(PAGE))?;
 
     // All that can go wrong with content is behind us; what is left is renaming.
@@ -41,11 +32,11 @@ pub fn write(run: &Path) -> Result<(), Failure> {
     copy_figures(&run.join(FIGURES), &fresh)?;
     replace_folder(&fresh, &figures)?;
     replace_file(&docs().join(PAGE), &page)?;
-    replace_file(&readme, &new)?;
+    replace_file(&summary::readme(), &readme)?;
     println!(
         "Wrote {}, its figures, and the summary in {}",
         docs().join(PAGE).display(),
-        readme.display()
+        summary::readme().display()
     );
     Ok(())
 }
@@ -54,11 +45,9 @@ pub fn write(run: &Path) -> Result<(), Failure> {
 pub fn check(run: &Path) -> Result<(), Failure> {
     const REMEDY: &str = "run `cargo run --release -- validate` and look at what changed";
     let page = docs().join(PAGE);
-    let readme = read(&project().join("README.md"))?;
-    let (_, summary, _) = around_summary(&readme)?;
     for (name, said, found) in [
         ("docs/validation.md", &*read(&page)?, read(&run.join(PAGE))?),
-        ("README.md", summary.trim(), read(&run.join(SUMMARY))?),
+        ("README.md", &*summary::read()?, read(&run.join(SUMMARY))?),
     ] {
         let different = compare::differences(said, found.trim_end());
         if let Some((said, found)) = different.first() {
@@ -76,17 +65,6 @@ pub fn check(run: &Path) -> Result<(), Failure> {
     }
     println!("docs/validation.md and README.md say what was just computed");
     Ok(())
-}
-
-/// The README before its summary, the summary, and what comes after.
-fn around_summary(readme: &str) -> Result<(&str, &str, &str), Failure> {
-    let mut parts = readme.split(MARK);
-    match (parts.next(), parts.next(), parts.next(), parts.next()) {
-        (Some(before), Some(summary), Some(after), None) => Ok((before, summary, after)),
-        _ => Err(Failure(format!(
-            "README.md must have two lines `{MARK}`, between which the summary stands"
-        ))),
-    }
 }
 
 fn read(file: &Path) -> Result<String, Failure> {

@@ -204,7 +204,9 @@ def report(flown, figures):
         flights = flown[task]["flights"]
         for key, quantity in NAMES.items():
             values = [v for _, v in points(FLAPPING, key)]
-            found.errors.append(errors.degrees(CASE, quantity, name, [f[key] for f in flights], values, READING))
+            found.errors.append(
+                errors.degrees(CASE, quantity, name, [f[key] for f in flights], values, READING)
+            )
     for task in ANGLED:
         own = flown[task]
         values = [v for _, v in points(SPEED, "alpha_deg")]
@@ -215,7 +217,9 @@ def report(flown, figures):
         found.errors.append(errors.percent(CASE, "CT", name, [f["CT"] for f in own["flights"]], thrust))
     speeds = points(SPEED, "N_rpm")
     turning = [flown[task]["rpm"] for task in SPEEDS]
-    found.errors.append(errors.percent(CASE, "rotor speed", "pittPetersDynamic", turning, [n for _, n in speeds]))
+    found.errors.append(
+        errors.percent(CASE, "rotor speed", "pittPetersDynamic", turning, [n for _, n in speeds])
+    )
     draw_flapping(flown, figures / "pca-2-flapping.svg")
     draw_autorotation(flown, figures / "pca-2-autorotation.svg")
     later = ["shaft angle", "CT", "rotor speed"]
@@ -235,12 +239,16 @@ def flapping_table(rows, names):
     cells = []
     for name in names:
         own = [by[name, quantity] for quantity in NAMES.values()]
-        cells.append([f"`{name}`" if " " not in name else name.replace("pittPetersDynamic", "`pittPetersDynamic`")])
+        cells.append(
+            [f"`{name}`" if " " not in name else name.replace("pittPetersDynamic", "`pittPetersDynamic`")]
+        )
         cells[-1] += [page.number(e.rms, "deg") for e in own]
         cells[-1] += [page.number(e.mean, "deg", True) for e in own]
         cells[-1] += [page.number(e.worst, "deg", True) for e in own]
     columns = ("coning", "longitudinal", "lateral")
-    return page.table(["inflow", *(f"{c}, {what}" for what in ("RMS", "mean", "worst") for c in columns)], cells)
+    return page.table(
+        ["inflow", *(f"{c}, {what}" for what in ("RMS", "mean", "worst") for c in columns)], cells
+    )
 
 
 def draw_flapping(flown, file):
@@ -250,7 +258,12 @@ def draw_flapping(flown, file):
             values = [f[key] for f in flown[task]["flights"]]
             axis.plot(RATIOS, values, **drawing.line(i), label=task)
         axis.plot(*zip(*points(FLAPPING, key)), **drawing.points(0), label="measured")
-        axis.set(xlabel=r"advance ratio $\mu$", ylabel=f"{name} {key[0]}$_{key[1]}$, deg", xlim=(0, 0.72), ylim=(0, None))
+        axis.set(
+            xlabel=r"advance ratio $\mu$",
+            ylabel=f"{name} {key[0]}$_{key[1]}$, deg",
+            xlim=(0, 0.72),
+            ylim=(0, None),
+        )
     drawing.legend_below(figure, axes[0], 6)
     drawing.save(figure, file)
 

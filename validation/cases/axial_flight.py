@@ -12,7 +12,12 @@ RATIOS = [-1.0 + 0.05 * i for i in range(41)]
 SHOWN = [-1.0, -0.5, 0.0, 0.5, 1.0]
 SETTINGS = {
     "disc": {**rotors.THESIS_CHOICES},
-    "blades, uniform": {**rotors.THESIS_CHOICES, "model.inflow": "uniform", "model.blades": "individual", "model.descent": "momentum"},
+    "blades, uniform": {
+        **rotors.THESIS_CHOICES,
+        "model.inflow": "uniform",
+        "model.blades": "individual",
+        "model.descent": "momentum",
+    },
     "defaults": {},
 }
 CASES = {
@@ -28,7 +33,11 @@ def fly(rotor, task, resources):
     case, name = task.split("; ")
     pitch, radius, rpm = CASES[case]
     with rotors.own_folder() as folder:
-        own = rotors.THESIS if case.startswith("thesis") else rotors.knight_hefner_slopes(4, resources, Path(folder))
+        own = (
+            rotors.THESIS
+            if case.startswith("thesis")
+            else rotors.knight_hefner_slopes(4, resources, Path(folder))
+        )
         chosen = {**own, "collective": math.radians(pitch)}
         # V_h is that of the disc in hover, the same for all lines of a rotor.
         rotor.start({**chosen, **SETTINGS["disc"]})
@@ -52,7 +61,10 @@ def report(flown, figures):
     draw(flown, figures / "axial-flight.svg")
     found.texts = {
         "axial-flight.table": page.table(header, cells, 3),
-        **{f"axial-flight.{name.split(',')[0]}": flown[f"thesis, 15.3 deg; {name}"]["models"] for name in SETTINGS},
+        **{
+            f"axial-flight.{name.split(',')[0]}": flown[f"thesis, 15.3 deg; {name}"]["models"]
+            for name in SETTINGS
+        },
     }
     return found
 

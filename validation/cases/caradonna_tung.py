@@ -87,8 +87,12 @@ def draw(flown, rows, file):
     for i, pitch in enumerate(PITCHES):
         own = [(r["M_tip"], r["CT"]) for r in rows if r["collective_deg"] == pitch]
         by_mach.plot(*zip(*own), **drawing.points(i), label=f"measured, {pitch} deg")
-        for mach, thrust in [(r["M_tip"], r["CT"]) for r in rows if r["rpm"] == MISPRINT and r["collective_deg"] == pitch]:
-            by_mach.annotate("misprint", (mach, thrust), xytext=(0, -13), textcoords="offset points", ha="center")
+        for mach, thrust in [
+            (r["M_tip"], r["CT"]) for r in rows if r["rpm"] == MISPRINT and r["collective_deg"] == pitch
+        ]:
+            by_mach.annotate(
+                "misprint", (mach, thrust), xytext=(0, -13), textcoords="offset points", ha="center"
+            )
         top = flown["none"]["lines"][str(pitch)][0]
         by_mach.annotate(f"{pitch} deg", (MACHS[0], top), xytext=(2, -11), textcoords="offset points")
     lift = measured.rows(LIFT)

@@ -85,7 +85,9 @@ def scatter(rpm, column):
 def draw(flown, file):
     figure, axes = drawing.figure(2, 2, height=6.4, sharex=True)
     for column, rpm in enumerate(SPEEDS):
-        for place, (label, name) in enumerate((("thrust coefficient CT", "CT"), ("rise of torque coefficient CQ", "DeltaCQ"))):
+        for place, (label, name) in enumerate(
+            (("thrust coefficient CT", "CT"), ("rise of torque coefficient CQ", "DeltaCQ"))
+        ):
             axis = axes[place][column]
             line = [values[place] for values in flown[str(rpm)]["line"]]
             axis.plot(PITCHES, line, **drawing.line(0), label="computed")

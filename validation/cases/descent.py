@@ -111,7 +111,9 @@ def report(flown, figures):
     with_torque = [i for i, r in enumerate(data) if r["DeltaCQ"] is not None]
     with_inflow = [i for i, r in enumerate(data) if r["lambda_i_thrust"] is not None]
     hover = {
-        ct: np.mean([r["DeltaCQ"] for r in data if r["CT"] == ct and r["lambda_z"] == 0 and r["DeltaCQ"] is not None])
+        ct: np.mean(
+            [r["DeltaCQ"] for r in data if r["CT"] == ct and r["lambda_z"] == 0 and r["DeltaCQ"] is not None]
+        )
         for ct in {r["CT"] for r in data}
     }
     hover_torque = [hover[data[i]["CT"]] for i in with_torque]
@@ -135,9 +137,7 @@ def report(flown, figures):
                 [points[i][1] for i in with_torque],
                 [data[i]["DeltaCQ"] for i in with_torque],
                 "hover",
-                scatter(
-                    [data[i] for i in with_torque], lambda r: 100.0 * r["DeltaCQ"] / hover[r["CT"]]
-                ),
+                scatter([data[i] for i in with_torque], lambda r: 100.0 * r["DeltaCQ"] / hover[r["CT"]]),
             ),
             errors.percent(
                 CASE,
@@ -151,11 +151,14 @@ def report(flown, figures):
     found.errors.sort(key=lambda e: ("collective", "torque rise", "induced velocity").index(e.quantity))
     draw(flown, data, figures)
     halves_table = [
-        [own, on, f"{errors.rms(velocity):.2f}", f"{errors.rms(angle):.2f}"] for own, on, velocity, angle in flown["law"]
+        [own, on, f"{errors.rms(velocity):.2f}", f"{errors.rms(angle):.2f}"]
+        for own, on, velocity, angle in flown["law"]
     ]
     unseen = np.concatenate([angle for _, on, _, angle in flown["law"] if on == OTHERS])
     turns = scatter(data, lambda r: r["theta_075R_deg"])
-    found.errors.append(errors.degrees(CASE, "inflow, in deg of collective", HELD_OUT, unseen, 0.0 * unseen, turns))
+    found.errors.append(
+        errors.degrees(CASE, "inflow, in deg of collective", HELD_OUT, unseen, 0.0 * unseen, turns)
+    )
     jumps = {
         f"{law}, {inflow}": sum(not p[3] for p in flown[f"{law} {inflow}"]["points"]) for law, inflow in LAWS
     }
@@ -166,14 +169,17 @@ def report(flown, figures):
         "descent.halves": page.table(
             ["fitted to", "judged on", "RMS of v/v_h", "worth in collective, deg RMS"], halves_table, 2
         ),
-        "descent.jumps": ", ".join(f"{count} with `{name}`" for name, count in jumps.items() if count) or "none",
+        "descent.jumps": ", ".join(f"{count} with `{name}`" for name, count in jumps.items() if count)
+        or "none",
     }
     return found
 
 
 def hover_torques(data):
     """The rise of torque in hover at a CT in this table, and between the points of the other."""
-    of_runs = [r["DeltaCQ"] for r in data if r["CT"] == 0.004 and r["lambda_z"] == 0.0 and r["DeltaCQ"] is not None]
+    of_runs = [
+        r["DeltaCQ"] for r in data if r["CT"] == 0.004 and r["lambda_z"] == 0.0 and r["DeltaCQ"] is not None
+    ]
     there = []
     for rpm in castles_gray.SPEEDS:
         for rows_of_run in castles_gray.runs(rpm).values():
@@ -204,7 +210,9 @@ def draw(flown, data, figures):
         for axis, (ct, _), i in zip(axes, LINES, range(len(LINES))):
             panel(axis, flown, i, place)
             own = [r for r in data if r["CT"] == ct and r[column] is not None]
-            axis.plot([r["lambda_z"] for r in own], [r[column] for r in own], **thin_points(), label="measured")
+            axis.plot(
+                [r["lambda_z"] for r in own], [r[column] for r in own], **thin_points(), label="measured"
+            )
             axis.set_title(f"CT = {ct}")
             axis.set(xlabel="rate of descent $V_d/v_h$", xlim=(0, 2.6))
             if place == 1:
@@ -219,7 +227,9 @@ def draw(flown, data, figures):
         own = [r for r in data if r["CT"] == ct and r["lambda_i_thrust"] is not None]
         values = [r["lambda_z"] for r in own], [r["lambda_i_thrust"] for r in own]
         axis.plot(*values, **drawing.points(i) | {"markersize": 3.5}, label=f"measured, CT = {ct}")
-    axis.set(xlabel="rate of descent $V_d/v_h$", ylabel="induced velocity $v/v_h$", xlim=(0, 2.6), ylim=(0, 2.9))
+    axis.set(
+        xlabel="rate of descent $V_d/v_h$", ylabel="induced velocity $v/v_h$", xlim=(0, 2.6), ylim=(0, 2.9)
+    )
     axis.legend(ncols=2)
     drawing.save(figure, figures / "descent-inflow.svg")
 

@@ -33,7 +33,12 @@ def fly(rotor, task, resources):
         else:
             blades = case.split()[3]
             own = rotors.knight_hefner_slopes(blades, resources, Path(folder))
-        chosen = {**own, **rotors.THESIS_CHOICES, "model.inflow": inflow, "collective": math.radians(CASES[case])}
+        chosen = {
+            **own,
+            **rotors.THESIS_CHOICES,
+            "model.inflow": inflow,
+            "collective": math.radians(CASES[case]),
+        }
         values, times = [], []
         for count in COUNTS:
             rotor.start({**chosen, "numerics.elements": count})

@@ -56,7 +56,9 @@ def report(flown, figures):
             computed += [c for c, p in zip(flights, points(blades)) if p[0] >= COMPARED_FROM]
         for place, quantity in enumerate(("CT", "CQ")):
             pairs = [c[place] for c in computed], [p[1 + place] for p in everything]
-            found.errors.append(errors.percent(CASE, quantity, lift, *pairs, scatter=setting(compared, place)))
+            found.errors.append(
+                errors.percent(CASE, quantity, lift, *pairs, scatter=setting(compared, place))
+            )
     draw(flown, figures / "knight-hefner.svg")
     found.texts = {
         "knight-hefner.errors": page.error_table(found.errors),
@@ -84,7 +86,18 @@ def low_pitch(flown):
             if pitch >= COMPARED_FROM:
                 continue
             of = lambda own, said: page.number(100.0 * (own / said - 1.0), "%", True) if said else "-"
-            rows.append([blades, f"{pitch:g}", f"{ct:.5f}", f"{own_ct:.5f}", of(own_ct, ct), f"{cq:.6f}", f"{own_cq:.6f}", of(own_cq, cq)])
+            rows.append(
+                [
+                    blades,
+                    f"{pitch:g}",
+                    f"{ct:.5f}",
+                    f"{own_ct:.5f}",
+                    of(own_ct, ct),
+                    f"{cq:.6f}",
+                    f"{own_cq:.6f}",
+                    of(own_cq, cq),
+                ]
+            )
     header = ["blades", "pitch, deg", "CT measured", "CT", "%", "CQ measured", "CQ", "%"]
     return page.table(header, rows, 0)
 

@@ -24,7 +24,11 @@ def fly(rotor, task, resources):
     case, lift, rule = task.split("; ")
     pitch, radius, rpm = CASES[case]
     with rotors.own_folder() as folder:
-        own = rotors.THESIS if case.startswith("thesis") else rotors.knight_hefner_slopes(4, resources, Path(folder))
+        own = (
+            rotors.THESIS
+            if case.startswith("thesis")
+            else rotors.knight_hefner_slopes(4, resources, Path(folder))
+        )
         chosen = {
             **own,
             "collective": math.radians(pitch),
@@ -49,7 +53,11 @@ def report(flown, figures):
             cell = [case, f"`{lift}`"]
             for place in (0, 1):
                 plain, corrected = hover[0][place], hover[1][place]
-                cell += [f"{plain:.{5 + place}f}", f"{corrected:.{5 + place}f}", page.number(100.0 * (corrected / plain - 1.0), "%", True)]
+                cell += [
+                    f"{plain:.{5 + place}f}",
+                    f"{corrected:.{5 + place}f}",
+                    page.number(100.0 * (corrected / plain - 1.0), "%", True),
+                ]
             cells.append(cell)
     header = ["rotor", "lift", "CT `none`", "CT `karmanTsien`", "%", "CP `none`", "CP `karmanTsien`", "%"]
     draw(flown, figures / "lift-slopes.svg")
@@ -68,7 +76,12 @@ def draw(flown, file):
             for i, lift in enumerate(LIFTS):
                 for rule, marker in zip(RULES, ("", "x")):
                     values = [f[place] for f in flown[f"{case}; {lift}; {rule}"]["flights"]]
-                    style = drawing.line(i) | {"linewidth": 1.1, "marker": marker, "markersize": 4, "markevery": 2}
+                    style = drawing.line(i) | {
+                        "linewidth": 1.1,
+                        "marker": marker,
+                        "markersize": 4,
+                        "markevery": 2,
+                    }
                     axis.plot(RATIOS, values, **style, label=f"{lift}, compressibility {rule}")
             drawing.coefficient_axis(axis)
             axis.set(xlim=(-1, 1))

@@ -50,7 +50,7 @@ def report(flown, figures):
     cells = []
     for case, (cutout, radius) in CASES.items():
         width = (1.0 - cutout) / ELEMENTS
-        in_metres = lambda r: f"{r:.3f} ({r * radius:.3f} m)"
+        in_metres = lambda r, radius=radius: f"{r:.3f} ({r * radius:.3f} m)"
         for setting in SETTINGS:
             own = flown[f"{case}; {setting}"]
             cell = [case, f"`{setting}`"]
@@ -91,7 +91,9 @@ def draw(flown, file):
     for pitch in rotors.THESIS_PITCHES:
         by_pitch.axvline(pitch, color="0.6", linewidth=0.8)
     by_radius.set(xlabel="radius r/R", ylabel="angle of attack, deg", xlim=(0, 1), ylim=(0, None))
-    by_pitch.set(xlabel="collective, deg", ylabel="share of the span that is stalled, %", xlim=(10, 30), ylim=(-2, 102))
+    by_pitch.set(
+        xlabel="collective, deg", ylabel="share of the span that is stalled, %", xlim=(10, 30), ylim=(-2, 102)
+    )
     for axis in (by_radius, by_pitch):
         axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), frameon=False, fontsize=7.5)
     drawing.save(figure, file)
