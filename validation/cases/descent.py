@@ -29,7 +29,7 @@ LAWS = [
     ("johnson", "uniform"),
 ]
 HELD_OUT = "measured, fitted to the other half of the runs"
-DRAWN = ["momentum uniform", "measured uniform", "johnson uniform"]
+DRAWN = ["momentum uniform", "measured uniform", "johnson uniform", "measured annulus"]
 TASKS = [" ".join(law) for law in LAWS] + ["law"]
 OUTPUTS = ("thrustCoefficient", "torqueCoefficient", "inducedVelocity")
 LOWEST, HIGHEST = -12.0, 25.0  # deg of collective
@@ -218,7 +218,7 @@ def draw(flown, data, figures):
             if place == 1:
                 drawing.coefficient_axis(axis)
         axes[0].set_ylabel(label)
-        drawing.legend_below(figure, axes[0], 4)
+        drawing.legend_below(figure, axes[0], 5)
         drawing.save(figure, figures / f"descent-{name}.svg")
 
     figure, axis = drawing.figure(1, 1, width=6.4, height=4.2)
@@ -243,5 +243,5 @@ def panel(axis, flown, line, place):
         values = [p[place] if p[3] else math.nan for p in flown[task]["lines"][line]]
         # Momentum theory jumps to the windmill at 2 v_h.
         cut = DESCENTS.index(2.0) + 1 if task.startswith("momentum") else len(DESCENTS)
-        axis.plot(DESCENTS[:cut], values[:cut], **drawing.line(i), label=task.replace(" ", ", "))
+        axis.plot(DESCENTS[:cut], values[:cut], **drawing.line(i), label="law " + task.replace(" ", ", "))
         axis.plot(DESCENTS[cut:], values[cut:], **drawing.line(i))
