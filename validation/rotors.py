@@ -3,7 +3,6 @@
 import math
 import re
 import tempfile
-from pathlib import Path
 
 
 def air(density, temperature):
@@ -70,7 +69,3 @@ THESIS = {"geometry.file": "thesis.toml", "airfoil.file": SLOPES, "rpm": THESIS_
 def hover_speed(thrust_coefficient, radius, rpm):
     """v_h = Omega R sqrt(CT/2), momentum theory's induced velocity of hover, m/s."""
     return rpm * math.pi / 30.0 * radius * math.sqrt(0.5 * thrust_coefficient)
-
-
-def path_of(resources, name):
-    return Path(resources) / "rotors" / name

@@ -218,7 +218,7 @@ def draw(flown, data, figures):
             if place == 1:
                 drawing.coefficient_axis(axis)
         axes[0].set_ylabel(label)
-        drawing.legend_below(figure, axes[0], 5)
+        drawing.legend_below(figure, axes[0], 3)
         drawing.save(figure, figures / f"descent-{name}.svg")
 
     figure, axis = drawing.figure(1, 1, width=6.4, height=4.2)
