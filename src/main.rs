@@ -1,9 +1,11 @@
-//! The program: makes `HelicopterRotor.fmu`, and flies it in FMPy beside measurements.
+//! The program: makes `HelicopterRotor.fmu`, flies it in FMPy beside measurements, and writes the page of how well.
 
 mod fly;
 mod package;
 mod python;
 mod reference;
+mod summary;
+mod validate;
 
 use clap::{Parser, Subcommand};
 use std::{
@@ -34,6 +36,15 @@ enum Command {
     },
     /// Make the reference inputs and outputs anew, that an importer is checked against, and the .fmu with them in it
     Reference,
+    /// Fly every measured case with the FMU in FMPy, and write docs/validation.md, its figures and the README's summary
+    Validate {
+        /// Write nothing: compare them with what comes out now, within the last printed digit
+        #[arg(long)]
+        check: bool,
+        /// Folder for errors.csv, element-times.csv and the page [default: target/validation]
+        #[arg(long, value_name = "FOLDER")]
+        out: Option<PathBuf>,
+    },
     /// Make the Python environment of the examples, and print the path of its interpreter
     Python,
 }
@@ -74,6 +85,15 @@ fn run(command: Option<Command>) -> Result<(), Failure> {
             make_fmu(&default_fmu)?;
             reference::make(&default_fmu, &target)?;
             make_fmu(&default_fmu)?;
+        }
+        Some(Command::Validate { check, out }) => {
+            let purpose = if check {
+                validate::Purpose::Check
+            } else {
+                validate::Purpose::Write
+            };
+            let out = out.unwrap_or_else(|| target.join("validation"));
+            validate::run(&out, &target, purpose)?;
         }
         Some(Command::Python) => {
             println!("{}", python::environment(&target)?.display());

@@ -1,4 +1,4 @@
-//! The Python environment of the examples: a venv under the target folder, made once for each
+//! The Python environment of the examples and of validation/: a venv under the target folder, made once for each
 //! content of fmu-examples/requirements.txt.
 
 use crate::{Failure, failed};
@@ -48,7 +48,7 @@ pub fn environment(target: &Path) -> Result<PathBuf, Failure> {
         Command::new(python).args(["-m", "venv"]).arg(&folder),
         "cannot make a Python environment; on Debian or Ubuntu, install the package python3-venv",
     )?;
-    spinner.set_message("installing FMPy and Matplotlib into it (once, about a minute) ...");
+    spinner.set_message("installing FMPy, Matplotlib and SciPy into it (once, about a minute) ...");
     succeed(
         Command::new(&interpreter)
             .args([

@@ -78,6 +78,7 @@ fn the_archive_holds_what_an_importer_and_a_reader_expect() {
         "collective",
         "geometry.file",
         "hubMoment[3]",
+        "<td>Knight &amp; Hefner 1937, hover</td><td>CT</td>",
         "karmanTsien",
         "<code>flapping.enabled</code></td><td>Boolean</td><td>false</td>",
     ] {

@@ -56,6 +56,7 @@ fn help_names_the_commands_and_what_happens_without_one() {
         "package",
         "reference",
         "python",
+        "validate",
         "Without a command",
         "target/fmu/HelicopterRotor.fmu",
     ] {

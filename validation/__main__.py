@@ -1,0 +1,61 @@
+"""Flies every measured case with the packaged FMU in FMPy, and writes the validation page.
+
+    python validation --fmu HelicopterRotor.fmu --out FOLDER
+
+writes into FOLDER validation.md, its figures in validation/, summary.md (the README's part), errors.csv and
+element-times.csv. While it works it prints lines `progress DONE TOTAL NAME`.
+"""
+
+import argparse
+import csv
+import dataclasses
+import sys
+from pathlib import Path
+
+import flights
+import page
+import summary
+from cases import CASES, elements
+from rotor import FlightError
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
+    parser.add_argument("--out", type=Path, required=True, help="folder to write into")
+    arguments = parser.parse_args()
+    if not arguments.fmu.is_file():
+        sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
+    try:
+        flown = flights.fly_all(arguments.fmu)
+    except FlightError as error:
+        sys.exit(str(error))
+    write(flown, arguments.out)
+
+
+def write(flown, folder):
+    figures = folder / "validation"
+    figures.mkdir(parents=True, exist_ok=True)
+    reports = {case: module.report(flown[case], figures) for case, module in CASES.items()}
+    rows = [e for report in reports.values() for e in report.errors]
+    texts = {name: text for report in reports.values() for name, text in report.texts.items()}
+    short = summary.table(rows)
+    summary.draw(rows, figures / "summary.svg")
+    texts["summary"] = short
+    (folder / "validation.md").write_text(page.fill(texts), encoding="utf-8")
+    (folder / "summary.md").write_text(short + "\n", encoding="utf-8")
+    names = [field.name for field in dataclasses.fields(rows[0])]
+    write_csv(folder / "errors.csv", names, [dataclasses.astuple(e) for e in rows])
+    timed = elements.times(flown["elements"])
+    write_csv(folder / "element-times.csv", ["flight", "elements", "seconds per solve"], timed)
+
+
+def write_csv(file, names, rows):
+    with file.open("w", newline="", encoding="utf-8") as out:
+        writer = csv.writer(out)
+        writer.writerow(names)
+        writer.writerows(rows)
+
+
+if __name__ == "__main__":
+    main()

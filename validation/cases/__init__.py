@@ -1,0 +1,34 @@
+"""The cases, one file each, in the order of the page.
+
+Each has
+    TASKS                        names of its parts, which are flown independently, in any process
+    fly(rotor, task, resources)  what a part found, as plain lists and numbers
+    report(flown, figures)       its texts and errors (page.Report) from {task: what it found}; draws its figures
+"""
+
+from . import (
+    autogiro,
+    axial_flight,
+    caradonna_tung,
+    castles_gray,
+    descent,
+    elements,
+    knight_hefner,
+    lift_slopes,
+    stall,
+)
+
+CASES = {
+    module.__name__.rsplit(".", 1)[-1]: module
+    for module in (
+        knight_hefner,
+        castles_gray,
+        caradonna_tung,
+        descent,
+        autogiro,
+        elements,
+        axial_flight,
+        lift_slopes,
+        stall,
+    )
+}

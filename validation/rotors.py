@@ -1,0 +1,69 @@
+"""The rotors flown: their definition and the air they were measured in. Nothing here is fitted."""
+
+import math
+import re
+import tempfile
+
+
+def air(density, temperature):
+    """Parameters of air of a density, kg/m3, and temperature, K."""
+    return {"air.model": "constant", "air.density": density, "air.temperature": temperature}
+
+
+# Knight & Hefner give 960 rpm and a tip Reynolds number of 242,000: air of 30 degrees Celsius at sea-level pressure.
+KNIGHT_HEFNER_RPM = 960.0
+KNIGHT_HEFNER_RADIUS = 0.762
+KNIGHT_HEFNER_AIR = air(1.164, 303.15)
+SLOPES = "airfoils/naca0015.txt"
+
+
+def knight_hefner(blades):
+    return {
+        "geometry.file": f"knight-hefner-{blades}.toml",
+        "rpm": KNIGHT_HEFNER_RPM,
+        **KNIGHT_HEFNER_AIR,
+    }
+
+
+def knight_hefner_slopes(blades, resources, folder):
+    """The same rotor with the section of airfoil.file all along the blade and without the root's fairing, because
+    lift slopes are given for NACA 0015 only and the fairing ends in a circle."""
+    text = (resources / "rotors" / f"knight-hefner-{blades}.toml").read_text(encoding="utf-8")
+    text = re.sub(r"^.*circle\.polar.*\n", "", text, flags=re.MULTILINE)
+    text = re.sub(r', airfoil = "[^"]*"', "", text)
+    file = folder / f"knight-hefner-{blades}-slopes.toml"
+    file.write_text(text, encoding="utf-8")
+    return {
+        "geometry.file": str(file),
+        "airfoil.file": SLOPES,
+        "rpm": KNIGHT_HEFNER_RPM,
+        **KNIGHT_HEFNER_AIR,
+    }
+
+
+def own_folder():
+    """A folder for rotor definitions made here; it goes with the object."""
+    return tempfile.TemporaryDirectory(prefix="rotors-")
+
+
+# Castles & Gray give Mach and Reynolds number at 0.75 R: 0.248 and 256,000 at 1200 rpm, and so a speed of sound of 347 m/s
+# and a kinematic viscosity of 1.62e-5 m2/s: air of 27 degrees Celsius at sea-level pressure.
+CASTLES_GRAY_RADIUS = 0.9144
+CASTLES_GRAY = {"geometry.file": "castles-gray-6ft.toml", **air(1.177, 300.0)}
+
+# The thesis' rotor; its tip speed is 55 m/s. The chord of the file is ASSUMED.
+THESIS_RADIUS = 1.22
+THESIS_RPM = 55.0 / THESIS_RADIUS * 30.0 / math.pi
+THESIS_PITCHES = (15.3, 16.9)
+THESIS_CHOICES = {
+    "model.inflow": "annulusClosedForm",
+    "model.lift": "thesisSlope",
+    "model.compressibility": "karmanTsien",
+    "model.tipLoss": "prandtl",
+}
+THESIS = {"geometry.file": "thesis.toml", "airfoil.file": SLOPES, "rpm": THESIS_RPM}
+
+
+def hover_speed(thrust_coefficient, radius, rpm):
+    """v_h = Omega R sqrt(CT/2), momentum theory's induced velocity of hover, m/s."""
+    return rpm * math.pi / 30.0 * radius * math.sqrt(0.5 * thrust_coefficient)
