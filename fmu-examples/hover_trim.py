@@ -1,0 +1,313 @@
+"""Trims a hovering rotor by Newton's method and makes a linear model of it, with the FMU's exact derivatives.
+
+The rotor has flapping blades on hinges beside the shaft and dynamic inflow, and hovers in a wind from ahead and from
+the side. Collective, shaft tilts and cyclic pitch are found with which it carries the weight straight up, without
+moments at the hub, when blade 1 is over the tail, where the FMU starts (the means over a turn differ by some 0.03 %
+of the weight, as the loads pulsate a little). Both the Jacobian of the trim (in Initialization Mode, where the states move with the inputs) and
+the matrices of the linear model (in Continuous-Time Mode, where they are held) are fmi2GetDirectionalDerivative's.
+
+    python hover_trim.py --fmu HelicopterRotor.fmu --out FOLDER
+
+prints the trim, step by step, and the eigenvalues, and writes into FOLDER
+
+    hover-trim.npz          the trim and the matrices A, B, C, D with the names of their rows and columns
+    step-response.csv, .png the linear model beside the FMU after a step of the collective
+"""
+
+import argparse
+import math
+import sys
+import tempfile
+from ctypes import c_double
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from fmpy import extract, read_model_description
+from fmpy.fmi2 import FMU2Model, FMU2Slave
+
+# The FMU's default rotor at sea level.
+RADIUS = 0.762  # m
+CHORD = 0.0508  # m
+CUTOUT = 1.0 / 6.0
+BLADES = 4
+SPEED = 960.0 * math.pi / 30.0  # rad/s
+DENSITY = 1.225  # kg/m3
+WEIGHT = 60.0  # N
+PARAMETERS = {
+    "model.inflow": "pittPetersDynamic",
+    "flapping.enabled": True,
+    "flapping.hingeOffset": 0.05,
+    # A Lock number rho a c R^4/I of 8.
+    "flapping.inertia": DENSITY * 2.0 * math.pi * CHORD * RADIUS**4 / 8.0,
+}
+WIND = {"wind[1]": -4.0, "wind[2]": 2.0}  # m/s
+
+TRIMMED = {
+    "force[1]": 0.0,
+    "force[2]": 0.0,
+    "force[3]": WEIGHT,
+    "hubMoment[1]": 0.0,
+    "hubMoment[2]": 0.0,
+}  # N, N.m
+ROUGH = {
+    "collective": math.radians(6.0),
+    "tilt": 0.0,
+    "lateralTilt": 0.0,
+    "cyclicLongitudinal": 0.0,
+    "cyclicLateral": 0.0,
+}  # rad
+TOLERANCE = 1e-6  # of the weight, and of the weight times the radius
+
+INPUTS = ["collective", "cyclicLongitudinal", "cyclicLateral", "velocity[1]", "velocity[2]", "velocity[3]"]
+OUTPUTS = ["force[1]", "force[2]", "force[3]", "hubMoment[1]", "hubMoment[2]", "coning"]
+INFLOW = [f"state.inflow[{i}]" for i in (1, 2, 3)]
+FLAPPING = [f"state.{kind}[{i}]" for kind in ("flapAngle", "flapRate") for i in range(1, BLADES + 1)]
+MULTIBLADE = ["b0", "b1c", "b1s", "bd"]  # coning, to the rear, to the advancing side, differential
+AZIMUTHS = 12  # over which the linear model is a mean, from blade to blade
+
+STEP = math.radians(0.5)  # of the collective
+STEP_TIME, STOP_TIME, INTERVAL = 0.05, 0.35, 0.001  # s
+
+
+class Rotor:
+    """An instance of the FMU, left in Initialization Mode; FMU2Model is Model Exchange, FMU2Slave Co-Simulation."""
+
+    def __init__(self, unzipped, description, parameters, interface=FMU2Model):
+        self.description = description
+        self.variables = {v.name: v for v in description.modelVariables}
+        self.fmu = interface(
+            guid=description.guid,
+            unzipDirectory=unzipped,
+            modelIdentifier=description.modelExchange.modelIdentifier,
+            instanceName="rotor",
+        )
+        self.fmu.instantiate()
+        for name, value in parameters.items():
+            variable = self.variables[name]
+            if variable.type == "Enumeration":
+                items = variable.declaredType.items
+                number = next(int(item.value) for item in items if item.name == value)
+                self.fmu.setInteger([variable.valueReference], [number])
+            else:
+                getattr(self.fmu, f"set{variable.type}")([variable.valueReference], [value])
+        self.fmu.setupExperiment(startTime=0.0)
+        self.fmu.enterInitializationMode()
+
+    def references(self, names):
+        return [self.variables[name].valueReference for name in names]
+
+    def set(self, values):
+        self.fmu.setReal(self.references(values), list(values.values()))
+
+    def get(self, names):
+        return np.array(self.fmu.getReal(self.references(names)))
+
+    def jacobian(self, unknowns, knowns):
+        """d unknowns/d knowns, column by column."""
+        rows = self.references(unknowns)
+        columns = [self.fmu.getDirectionalDerivative(rows, [known], [1.0]) for known in self.references(knowns)]
+        return np.array(columns).T
+
+    def start(self):
+        self.fmu.exitInitializationMode()
+        self.fmu.newDiscreteStates()
+        self.fmu.enterContinuousTimeMode()
+
+    def set_states(self, values):
+        """The named continuous states; all others as they are."""
+        count = self.description.numberOfContinuousStates
+        vector = (c_double * count)()
+        self.fmu.getContinuousStates(vector, count)
+        order = [unknown.variable.derivative.name for unknown in self.description.derivatives]
+        for name, value in values.items():
+            vector[order.index(name)] = value
+        self.fmu.setContinuousStates(vector, count)
+
+    def close(self):
+        self.fmu.terminate()
+        self.fmu.freeInstance()
+
+
+def trim(rotor, wanted, guess):
+    """The inputs named in `guess` with which the outputs are as `wanted`, and the residual of each step."""
+    controls = np.array(list(guess.values()))
+    scale = np.array([WEIGHT * RADIUS if "oment" in name else WEIGHT for name in wanted])
+    residuals = []
+    while True:
+        rotor.set(dict(zip(guess, controls)))
+        excess = rotor.get(wanted) - list(wanted.values())
+        residuals.append(float(np.abs(excess / scale).max()))
+        if residuals[-1] < TOLERANCE:
+            return dict(zip(guess, controls.tolist())), residuals
+        if len(residuals) > 20:
+            raise RuntimeError(f"no trim found in 20 steps; the residual is {residuals[-1]:.1e}")
+        controls = controls - np.linalg.solve(rotor.jacobian(wanted, guess), excess)
+
+
+def multiblade(azimuth):
+    """T with (inflow, flap angles, flap rates) = T y, and its rate: y are the inflow and the rotor's coning, cyclic and
+    differential flapping with their rates in axes that stand still (Johnson 1980, Helicopter Theory, ch. 8-2)."""
+    psi = azimuth + 2.0 * math.pi / BLADES * np.arange(BLADES)
+    one, zero = np.ones(BLADES), np.zeros(BLADES)
+    c = np.array([one, np.cos(psi), np.sin(psi), (-1.0) ** np.arange(BLADES)]).T
+    first = SPEED * np.array([zero, -np.sin(psi), np.cos(psi), zero]).T
+    second = SPEED**2 * np.array([zero, -np.cos(psi), -np.sin(psi), zero]).T
+    none = np.zeros_like(c)
+    inflow = len(INFLOW)
+    transform, rate = np.eye(inflow + 2 * BLADES), np.zeros((inflow + 2 * BLADES,) * 2)
+    transform[inflow:, inflow:] = np.block([[c, none], [first, c]])
+    rate[inflow:, inflow:] = np.block([[first, none], [second, first]])
+    return transform, rate
+
+
+def linear_model(rotor):
+    """A, B, C, D of a started rotor with flapping blades, in multiblade coordinates, the mean over a passage from blade
+    to blade: in the wind the matrices change a little as the blades turn."""
+    states = INFLOW + FLAPPING
+    rates = [f"der({name})" for name in states]
+    y = np.linalg.solve(multiblade(0.0)[0], rotor.get(states))
+    total = 0.0
+    for azimuth in np.arange(AZIMUTHS) * 2.0 * math.pi / BLADES / AZIMUTHS:
+        transform, rate = multiblade(azimuth)
+        rotor.set_states({"azimuth": azimuth} | dict(zip(states, transform @ y)))
+        a = np.linalg.solve(transform, rotor.jacobian(rates, states) @ transform - rate)
+        b = np.linalg.solve(transform, rotor.jacobian(rates, INPUTS))
+        c = rotor.jacobian(OUTPUTS, states) @ transform
+        total = total + np.block([[a, b], [c, rotor.jacobian(OUTPUTS, INPUTS)]])
+    mean, n = total / AZIMUTHS, len(states)
+    return mean[:n, :n], mean[:n, n:], mean[n:, :n], mean[n:, n:]
+
+
+def linear_response(a, b, c, d, times):
+    """Changes of the outputs after the step of the collective at STEP_TIME: y(t) = (exp(A t) - 1) A^-1 b."""
+    values, vectors = np.linalg.eig(a)
+    modal = np.linalg.solve(vectors, b[:, 0] * STEP)
+    since = np.clip(times - STEP_TIME, 0.0, None)[:, None]
+    y = ((np.expm1(values * since) / values * modal) @ vectors.T).real
+    return y @ c.T + np.where(since > 0.0, d[:, 0] * STEP, 0.0)
+
+
+def fly(unzipped, description, inputs, step):
+    """Times and outputs (rows) of the FMU itself, in Co-Simulation, with a step of the collective at STEP_TIME."""
+    rotor = Rotor(unzipped, description, PARAMETERS, FMU2Slave)
+    rotor.set(inputs)
+    rotor.fmu.exitInitializationMode()
+    rows = [rotor.get(OUTPUTS)]
+    times = np.arange(round(STOP_TIME / INTERVAL) + 1) * INTERVAL
+    for time in times[:-1]:
+        if abs(time - STEP_TIME) < 0.5 * INTERVAL:
+            rotor.set({"collective": inputs["collective"] + step})
+        rotor.fmu.doStep(currentCommunicationPoint=time, communicationStepSize=INTERVAL)
+        rows.append(rotor.get(OUTPUTS))
+    rotor.close()
+    return times, np.array(rows)
+
+
+def hover_in_still_air(unzipped, description):
+    """Eigenvalues of the inflow over rigid blades with a lift slope of 2 pi, those of theory, and the Newton steps."""
+    parameters = {
+        "model.inflow": "pittPetersDynamic",
+        "model.lift": "twoPi",
+        "model.tipLoss": "none",
+        "model.compressibility": "none",
+    }
+    rotor = Rotor(unzipped, description, parameters)
+    _, residuals = trim(rotor, {"force[3]": WEIGHT}, {"collective": ROUGH["collective"]})
+    rotor.start()
+    a = rotor.jacobian([f"der({name})" for name in INFLOW], INFLOW)
+    (v0,) = rotor.get(["inducedVelocity"])
+    rotor.close()
+    # Apparent mass against the wake, 2 v^2, and the lift of the blades, with small angles (Pitt & Peters 1981).
+    blades = 2.0 * math.pi * BLADES * CHORD / (math.pi * RADIUS) * SPEED * RADIUS
+    mean = -(4.0 * v0 + blades * (1.0 - CUTOUT**2) / 4.0) / (RADIUS * 8.0 / (3.0 * math.pi))
+    slope = -(v0 + blades * (1.0 - CUTOUT**4) / 16.0) / (RADIUS * 16.0 / (45.0 * math.pi))
+    return np.diag(a), [mean, slope, slope], residuals
+
+
+def plot(times, flown, linear, file):
+    figure, axes = plt.subplots(2, 1, figsize=(7.0, 6.0), constrained_layout=True, sharex=True)
+    for axis, name, factor, label in (
+        (axes[0], "force[3]", 1.0, "upward force, N"),
+        (axes[1], "coning", 180.0 / math.pi, "coning $a_0$, deg"),
+    ):
+        column = OUTPUTS.index(name)
+        axis.plot(1e3 * times, factor * flown[:, column], color="black", linewidth=2.5, label="FMU")
+        axis.plot(1e3 * times, factor * linear[:, column], "--", color="0.6", label="linear model")
+        axis.set_ylabel(label)
+        axis.grid(True, color="0.85")
+    axes[0].legend()
+    axes[0].set_title(f"Hover in a wind: collective raised by {math.degrees(STEP):g} deg at {1e3 * STEP_TIME:g} ms")
+    axes[1].set_xlabel("time, ms")
+    figure.savefig(file, dpi=130)
+    plt.close(figure)
+
+
+def show(title, residuals):
+    print(f"{title}: residuals before each Newton step and after the last")
+    print("  " + "  ".join(f"{residual:.1e}" for residual in residuals))
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
+    parser.add_argument("--out", type=Path, default=Path("."), help="folder for the model, the table and the plot")
+    arguments = parser.parse_args()
+    if not arguments.fmu.is_file():
+        sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
+    arguments.out.mkdir(parents=True, exist_ok=True)
+
+    with tempfile.TemporaryDirectory() as folder:
+        unzipped = extract(str(arguments.fmu), unzipdir=folder)
+        description = read_model_description(unzipped)
+
+        rotor = Rotor(unzipped, description, PARAMETERS)
+        rotor.set(WIND)
+        controls, residuals = trim(rotor, TRIMMED, ROUGH)
+        show("Trim in the wind", residuals)
+        for name, value in controls.items():
+            print(f"  {name:18s} {math.degrees(value):8.4f} deg")
+        rotor.start()
+        a, b, c, d = linear_model(rotor)
+        rotor.close()
+        print("Eigenvalues of the linear model, 1/s, and their frequencies per turn")
+        for value in sorted(np.linalg.eigvals(a), key=lambda v: (v.real, v.imag)):
+            if value.imag >= 0.0:
+                print(f"  eigenvalue {value.real:9.2f} +- {value.imag:7.2f} i   {abs(value) / SPEED:.3f}")
+
+        still, theory, still_residuals = hover_in_still_air(unzipped, description)
+        show("Rigid blades in still air", still_residuals)
+        print("Eigenvalues of their inflow, 1/s: mean, slope fore and aft, slope to the side")
+        print("  linear model " + " ".join(f"{value:9.3f}" for value in still))
+        print("  theory       " + " ".join(f"{value:9.3f}" for value in theory))
+
+        inputs = WIND | controls
+        times, flown = fly(unzipped, description, inputs, STEP)
+        _, held = fly(unzipped, description, inputs, 0.0)
+
+    # The linear model adds to the mean of the trim; the FMU's loads pulsate about it, from blade to blade.
+    linear = held.mean(axis=0) + linear_response(a, b, c, d, times)
+    print(f"Mean loads of the trim: {', '.join(f'{value:.4f}' for value in held.mean(axis=0)[:5])} N, N.m")
+    np.savez(
+        arguments.out / "hover-trim.npz",
+        **dict(A=a, B=b, C=c, D=d, inputs=INPUTS, outputs=OUTPUTS),
+        states=INFLOW + MULTIBLADE + [f"der({name})" for name in MULTIBLADE],
+        trim=list(inputs.values()),
+        trimmed=list(inputs),
+    )
+    np.savetxt(
+        arguments.out / "step-response.csv",
+        np.column_stack([times, flown, held, linear]),
+        delimiter=",",
+        comments="",
+        header=",".join(["time", *(f"{kind}:{name}" for kind in ("step", "held", "linear") for name in OUTPUTS)]),
+    )
+    plot(times, flown, linear, arguments.out / "step-response.png")
+    print(f"Written: {arguments.out / 'hover-trim'}.npz, {arguments.out / 'step-response'}.csv, .png")
+
+
+if __name__ == "__main__":
+    main()
