@@ -195,6 +195,165 @@ fn fmpy_flies_the_same_manoeuvre_through_both_interfaces_and_goes_back_to_a_stat
     assert!(first > 50.0);
 }
 
+/// The largest errors by setting, as the example writes them.
+fn errors_of(text: &str, manoeuvre: &str, interface: &str) -> Vec<(f64, f64)> {
+    let start = format!("{manoeuvre},{interface},");
+    let lines = text.lines().filter_map(|line| line.strip_prefix(&start));
+    lines
+        .map(|line| {
+            let (setting, error) = line.split_once(',').unwrap();
+            (setting.parse().unwrap(), error.parse().unwrap())
+        })
+        .collect()
+}
+
+/// Slope of the line through the points in logarithms (least squares).
+fn order(points: &[(f64, f64)]) -> f64 {
+    let points = points.iter().map(|(x, y)| (x.ln(), y.ln()));
+    let n = points.len() as f64;
+    let (x, y) = points
+        .clone()
+        .fold((0.0, 0.0), |(x, y), p| (x + p.0, y + p.1));
+    let (x, y) = (x / n, y / n);
+    let (above, below) = points.fold((0.0, 0.0), |(a, b), p| {
+        (a + (p.0 - x) * (p.1 - y), b + (p.0 - x) * (p.0 - x))
+    });
+    above / below
+}
+
+/// Model Exchange comes to what Co-Simulation has with its shortest steps, as the solver's tolerance shrinks. A solver of
+/// order p that keeps the error of each step at the tolerance takes steps as tolerance^(1/(p + 1)), so that the error of all of
+/// them goes with tolerance^(p/(p + 1)): powers of 0.5 to 0.83 for CVode's backward differences of orders 1 to 5, with
+/// some leeway for orders that rise as the tolerance shrinks. Heun's third-order method in Co-Simulation has the power 3.
+#[test]
+fn both_interfaces_converge_to_the_same_flights() {
+    let folder = scratch("solver-accuracy");
+    println!(
+        "{}",
+        run(example("solver_accuracy.py").arg("--out").arg(&folder))
+    );
+    let text = fs::read_to_string(folder.join("solver-accuracy.csv")).unwrap();
+    for (manoeuvre, at_default_step) in [
+        ("hover", 1e-7),
+        ("forward-flight", 2e-4),
+        ("run-down", 1e-8),
+    ] {
+        let exchange = errors_of(&text, manoeuvre, "ModelExchange");
+        assert_eq!(exchange.len(), 7);
+        for pair in exchange.windows(2) {
+            assert!(pair[1].1 < 1.2 * pair[0].1, "{manoeuvre}: {pair:?}");
+        }
+        let (tolerance, error) = exchange[4];
+        assert!((tolerance / 1e-7 - 1.0).abs() < 1e-9);
+        assert!(error < 3e-5, "{manoeuvre}: {error}");
+        let power = order(&exchange);
+        assert!((0.5..1.0).contains(&power), "{manoeuvre}: {power}");
+
+        let simulation = errors_of(&text, manoeuvre, "CoSimulation");
+        assert_eq!(simulation.len(), 5);
+        let power = order(&simulation);
+        assert!((2.8..3.5).contains(&power), "{manoeuvre}: {power}");
+        let (step, error) = simulation[2];
+        assert_eq!(step, 3.0);
+        assert!(error < at_default_step, "{manoeuvre}: {error}");
+    }
+    let picture = folder.join("solver-accuracy.png");
+    assert!(picture.metadata().unwrap().len() > 10_000);
+}
+
+/// Exact derivatives make Newton's method converge quadratically, and the linear model what the FMU does in small steps.
+#[test]
+fn a_hover_is_trimmed_and_made_linear_by_exact_derivatives() {
+    let folder = scratch("hover-trim");
+    let words = run(example("hover_trim.py").arg("--out").arg(&folder));
+    println!("{words}");
+    let numbers = |title: &str| -> Vec<f64> {
+        let mut lines = words.lines().skip_while(|line| !line.starts_with(title));
+        let line = lines.nth(1).unwrap_or_else(|| panic!("no {title}"));
+        line.split_whitespace()
+            .filter_map(|word| word.parse().ok())
+            .collect()
+    };
+    for title in ["Trim in the wind", "Rigid blades in still air"] {
+        let residuals = numbers(title);
+        assert!((3..=6).contains(&residuals.len()), "{title}: {residuals:?}");
+        assert!(residuals[0] > 0.01 && *residuals.last().unwrap() < 1e-6);
+        for pair in residuals.windows(2) {
+            assert!(pair[1] < 2.0 * pair[0] * pair[0], "{title}: {residuals:?}");
+        }
+    }
+    // Inflow over rigid blades, by the theory of Pitt & Peters with the blades as dampers.
+    let title = "Eigenvalues of their inflow";
+    let row = |label: &str| {
+        let mut lines = words.lines().skip_while(|line| !line.starts_with(title));
+        let line = lines.find(|line| line.trim_start().starts_with(label));
+        let found: Vec<f64> = line
+            .unwrap()
+            .split_whitespace()
+            .filter_map(|word| word.parse().ok())
+            .collect();
+        found
+    };
+    let (model, theory) = (row("linear model"), row("theory"));
+    assert_eq!(model.len(), 3);
+    for (found, expected) in model.iter().zip(&theory) {
+        assert!(
+            (found / expected - 1.0).abs() < 0.005,
+            "{model:?} {theory:?}"
+        );
+    }
+    // Flapping and inflow die away. Differential flapping gives no load to the inflow: its frequency is that of a blade
+    // in vacuum on its hinge, sqrt(1 + 1.5 e/(1 - e)) per turn (Johnson 1980), e = 0.05.
+    let modes = words
+        .lines()
+        .filter_map(|line| line.trim_start().strip_prefix("eigenvalue"));
+    let modes: Vec<(f64, f64)> = modes
+        .map(|line| {
+            let words: Vec<&str> = line.split_whitespace().collect();
+            (
+                words[0].parse().unwrap(),
+                words.last().unwrap().parse().unwrap(),
+            )
+        })
+        .collect();
+    assert!(modes.len() >= 6 && modes.iter().all(|(damping, _)| *damping < -5.0));
+    let expected = (1.0_f64 + 1.5 * 0.05 / 0.95).sqrt();
+    assert!(
+        modes
+            .iter()
+            .any(|(_, n)| (n / expected - 1.0).abs() < 0.005),
+        "{modes:?}"
+    );
+
+    // Half a degree of collective is small: the linear model is within some per cent of the change.
+    let rows = csv(&fs::read_to_string(folder.join("step-response.csv")).unwrap());
+    for (output, bound) in [
+        ("force[3]", 0.03),
+        ("coning", 0.03),
+        ("hubMoment[1]", 0.1),
+        ("hubMoment[2]", 0.1),
+    ] {
+        let column = |kind: &str| -> Vec<f64> {
+            rows.iter()
+                .map(|row| value(row, &format!("{kind}:{output}")))
+                .collect()
+        };
+        let (step, held, linear) = (column("step"), column("held"), column("linear"));
+        let changes: Vec<f64> = step.iter().zip(&held).map(|(s, h)| s - h).collect();
+        let largest = changes.iter().fold(0.0_f64, |most, c| most.max(c.abs()));
+        for (change, linear_value) in changes.iter().zip(&linear) {
+            let off = change - (linear_value - linear[0]);
+            assert!(off.abs() < bound * largest, "{output}: {off} of {largest}");
+        }
+        assert_eq!(changes[0], 0.0);
+    }
+    // At once as much thrust as the pitch makes, half as much when inflow and flapping have followed.
+    let change = |i: usize| value(&rows[i], "step:force[3]") - value(&rows[i], "held:force[3]");
+    assert!(change(51) > 8.0 && (5.0..6.5).contains(&change(350)));
+    assert!(folder.join("step-response.png").metadata().unwrap().len() > 10_000);
+    assert!(folder.join("hover-trim.npz").is_file());
+}
+
 /// The bounds that the model is held to, against Knight & Hefner (1937), NACA TN 626, at 4 deg of
 /// pitch and above, where the thrust is large enough for differences in per cent.
 #[test]

@@ -1,0 +1,195 @@
+"""Shows how accurate the FMU's two interfaces are, and what decides it: the tolerance of the importer's solver in Model
+Exchange, numerics.azimuthStep in Co-Simulation.
+
+Three manoeuvres begin with a jump of an input: the collective in hover with dynamic inflow, the cyclic pitch in
+forward flight with flapping blades, and the torque that drives the rotor, which runs down. (A jump, since FMPy
+holds inputs that move within each output interval in Model Exchange, which would be an error of its own.) Each is flown by
+Co-Simulation with the shortest step there is, by Model Exchange with FMPy's CVode with relative tolerances from 1e-3
+to 1e-9, and by Co-Simulation with longer steps. Errors are the largest over all outputs and times, as a part of the
+largest magnitude of the output.
+
+    python solver_accuracy.py --fmu HelicopterRotor.fmu --out FOLDER
+
+prints the errors and writes them into FOLDER as solver-accuracy.csv and solver-accuracy.png.
+"""
+
+import argparse
+import csv
+import math
+import sys
+import tempfile
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from fmpy import extract, read_model_description, simulate_fmu
+
+FINEST = 0.001  # rad, numerics.azimuthStep of the run that the others are compared with
+TOLERANCES = [10.0**-k for k in range(3, 10)]
+AZIMUTH_STEPS = [0.75, 1.5, 3.0, 6.0, 12.0]  # deg
+DEFAULT_STEP = 3.0  # deg
+JUMP_TIME = 0.0525  # s; between two output points, so that none has two values
+INTERVAL = 0.005  # s
+
+# Duration (s), parameters and inputs, the input that jumps from its first to its second value, outputs, marker. FMPy bounds
+# CVode's steps by a 50th of the duration, which in a short flight would hide what the tolerance does.
+MANOEUVRES = {
+    "hover": (
+        2.0,
+        {"model.inflow": "pittPetersDynamic"},
+        {"collective": (math.radians(8.0), math.radians(10.0))},
+        ["thrust", "torque", "inducedVelocity"],
+        "o",
+    ),
+    "forward flight": (
+        0.4,
+        {
+            "model.inflow": "pittPetersDynamic",
+            "flapping.enabled": True,
+            "flapping.hingeOffset": 0.04,
+            "velocity[1]": 15.0,
+            "tilt": math.radians(4.0),
+        },
+        {"cyclicLongitudinal": (0.0, math.radians(2.0))},
+        ["thrust", "torque", "coning", "longitudinalFlapping", "lateralFlapping"],
+        "s",
+    ),
+    "run-down": (
+        2.0,
+        {"driveMode": "torque", "driveInertia": 0.25, "model.inflow": "pittPetersDynamic"},
+        {"driveTorque": (4.23, 0.0)},
+        ["thrust", "torque", "rotorSpeed"],
+        "^",
+    ),
+}
+
+
+class Manoeuvre:
+    """A manoeuvre that FMPy flies through either interface."""
+
+    def __init__(self, unzipped, description, name):
+        self.duration, parameters, jump, self.outputs, _ = MANOEUVRES[name]
+        self.unzipped, self.description = unzipped, description
+        variables = {v.name: v for v in description.modelVariables}
+
+        def number(name, value):
+            """FMPy takes enumerations as numbers."""
+            if variables[name].type != "Enumeration":
+                return value
+            return next(item.value for item in variables[name].declaredType.items if item.name == value)
+
+        self.start = {name: number(name, value) for name, value in parameters.items()}
+        # All inputs, as FMPy warns of those that are missing; two rows at one time make a jump.
+        inputs = {v.name: (v.start, v.start) for v in description.modelVariables if v.causality == "input"}
+        inputs |= {name: (value, value) for name, value in parameters.items() if name in inputs}
+        inputs |= jump
+        columns = {name: [before, before, after, after] for name, (before, after) in inputs.items()}
+        columns = {"time": [0.0, JUMP_TIME, JUMP_TIME, self.duration]} | columns
+        self.inputs = np.rec.fromarrays(
+            [np.array(column, dtype=float) for column in columns.values()], names=list(columns)
+        )
+
+    def fly(self, interface, parameters, **options):
+        """Outputs (columns) at the output points (rows)."""
+        result = simulate_fmu(
+            self.unzipped,
+            model_description=self.description,
+            fmi_type=interface,
+            start_values=self.start | parameters,
+            input=self.inputs,
+            output=self.outputs,
+            stop_time=self.duration,
+            output_interval=INTERVAL,
+            record_events=False,
+            **options,
+        )
+        # Co-Simulation has a row at the jump as well.
+        points = result["time"] / INTERVAL
+        rows = np.abs(points - np.round(points)) < 1e-6
+        return np.array([result[name][rows] for name in self.outputs]).T
+
+    def co_simulation(self, azimuth_step):
+        return self.fly("CoSimulation", {"numerics.azimuthStep": azimuth_step})
+
+    def model_exchange(self, tolerance):
+        """With the start of the finest run: flapping that repeats itself is found with steps of numerics.azimuthStep."""
+        start = {"numerics.azimuthStep": FINEST}
+        return self.fly("ModelExchange", start, relative_tolerance=tolerance)
+
+
+def errors(manoeuvre):
+    """Pairs of tolerance and error of Model Exchange, and of azimuth step (deg) and error of Co-Simulation."""
+    exact = manoeuvre.co_simulation(FINEST)
+    largest = np.abs(exact).max(axis=0)
+
+    def error(flown):
+        return float((np.abs(flown - exact) / largest).max())
+
+    return (
+        [(tolerance, error(manoeuvre.model_exchange(tolerance))) for tolerance in TOLERANCES],
+        [(step, error(manoeuvre.co_simulation(math.radians(step)))) for step in AZIMUTH_STEPS],
+    )
+
+
+def order(pairs):
+    """Slope of the line through the pairs in logarithms (least squares)."""
+    return float(np.polyfit(*np.log(np.array(pairs)).T, 1)[0])
+
+
+def plot(found, file):
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.6), constrained_layout=True, sharey=True)
+    for name, (exchange, simulation) in found.items():
+        for axis, pairs in ((left, exchange), (right, simulation)):
+            style = {"marker": MANOEUVRES[name][-1], "color": "black", "markerfacecolor": "white"}
+            axis.loglog(*np.array(pairs).T, linewidth=0.8, label=name, **style)
+    tolerances, steps = np.array(TOLERANCES), np.array(AZIMUTH_STEPS)
+    left.loglog(tolerances, tolerances, "--", color="0.5", label="error = tolerance")
+    least = min(pairs[1][0][1] for pairs in found.values())
+    right.loglog(steps, 0.3 * least * (steps / steps[0]) ** 3, "--", color="0.5", label="order 3")
+    right.axvline(DEFAULT_STEP, color="0.5", linestyle=":", label="default")
+    left.set_title("Model Exchange, FMPy's CVode")
+    left.set_xlabel("relative tolerance of the solver")
+    left.set_ylabel("largest error, part of the output's largest magnitude")
+    right.set_title("Co-Simulation")
+    right.set_xlabel("numerics.azimuthStep, deg")
+    right.set_xticks(AZIMUTH_STEPS, [f"{step:g}" for step in AZIMUTH_STEPS])
+    right.minorticks_off()
+    for axis in (left, right):
+        axis.grid(True, color="0.88")
+        axis.legend(frameon=False)
+    figure.savefig(file, dpi=130)
+    plt.close(figure)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
+    parser.add_argument("--out", type=Path, default=Path("."), help="folder for the table and the plot")
+    arguments = parser.parse_args()
+    if not arguments.fmu.is_file():
+        sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
+    arguments.out.mkdir(parents=True, exist_ok=True)
+
+    found, rows = {}, []
+    with tempfile.TemporaryDirectory() as folder:
+        unzipped = extract(str(arguments.fmu), unzipdir=folder)
+        description = read_model_description(unzipped)
+        for name in MANOEUVRES:
+            found[name] = errors(Manoeuvre(unzipped, description, name))
+            kinds = (("ModelExchange", "relative tolerance"), ("CoSimulation", "azimuth step, deg"))
+            for (interface, what), pairs in zip(kinds, found[name]):
+                print(f"{name}, {interface}: order {order(pairs):.2f}", flush=True)
+                print(f"  {what:20s}" + "".join(f"{setting:9.2g}" for setting, _ in pairs))
+                print(f"  {'largest error':20s}" + "".join(f"{error:9.1e}" for _, error in pairs))
+                rows += [(name.replace(" ", "-"), interface, setting, error) for setting, error in pairs]
+    with (arguments.out / "solver-accuracy.csv").open("w", newline="", encoding="utf-8") as file:
+        csv.writer(file).writerows([("manoeuvre", "interface", "setting", "error"), *rows])
+    plot(found, arguments.out / "solver-accuracy.png")
+    print(f"Table and plot: {arguments.out / 'solver-accuracy'}.csv, .png")
+
+
+if __name__ == "__main__":
+    main()
