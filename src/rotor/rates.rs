@@ -3,6 +3,7 @@
 use super::{
     Drive, Operation, Rotor, SolveError, State,
     disc::DiscFlow,
+    flapping::Flap,
     inflow::{
         Inflow,
         pitt_peters::{Loading, Stream},
@@ -32,6 +33,26 @@ impl<S: Scalar> Rotor<S> {
             (_, Some(wake)) => wake.len(),
             _ => 0,
         }
+    }
+
+    /// Number of the blades that flap.
+    pub(super) fn flapping_blades(&self) -> usize {
+        match self.models.hinge.freedom {
+            Some(_) => self.geometry.blades as usize,
+            None => 0,
+        }
+    }
+
+    /// The state with all that does not count at 0: the speed unless a torque drives the rotor, and what the models
+    /// do not use.
+    pub fn used(&self, is_driven: bool, state: &State<S>) -> State<S> {
+        let mut used = *state;
+        if !is_driven {
+            used.speed = S::zero();
+        }
+        used.inflow[self.inflow_states()..].fill(S::zero());
+        used.flaps[self.flapping_blades()..].fill(Flap::rigid(0.0));
+        used
     }
 
     /// How fast the states change, per second.

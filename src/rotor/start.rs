@@ -44,14 +44,7 @@ impl Rotor {
     ) -> Result<State, SolveError> {
         let precone = Flap::rigid(self.models.hinge.precone);
         let mut state = State::default();
-        if self.models.hinge.freedom.is_some() {
-            let count = self.geometry.blades as usize;
-            state
-                .flaps
-                .iter_mut()
-                .take(count)
-                .for_each(|f| *f = precone);
-        }
+        state.flaps[..self.flapping_blades()].fill(precone);
         // A torque that the rotor does not need leaves no speed as it is: the states are those at the speed of
         // the start, as if it were imposed.
         let operation = &Operation {
@@ -227,14 +220,9 @@ impl Rotor {
     }
 
     fn scale(&self, operation: &Operation) -> Scale {
-        let flaps = self.models.hinge.freedom.is_some();
         Scale {
             inflow: self.inflow_states(),
-            flapping: if flaps {
-                self.geometry.blades as usize
-            } else {
-                0
-            },
+            flapping: self.flapping_blades(),
             speed: operation.speed * self.geometry.radius,
             rotation: operation.speed,
         }
