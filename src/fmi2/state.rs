@@ -68,6 +68,8 @@ enum NoState {
     Checksum,
     #[error("the state cannot be used: {0}")]
     Damage(#[from] Damage),
+    #[error("the state cannot be used: it is not written as this FMU writes it")]
+    Written,
 }
 
 impl FmuState {
@@ -132,6 +134,10 @@ impl FmuState {
         let mut reader = Reader::new(&body[HEAD..]);
         let state = Self::read(&mut reader)?;
         reader.end()?;
+        // There are several ways to write some values, of which this FMU has one.
+        if state.to_bytes() != bytes {
+            return Err(NoState::Written);
+        }
         Ok(state)
     }
 
