@@ -132,6 +132,10 @@ impl FmuState {
         let mut reader = Reader::new(&body[HEAD..]);
         let state = Self::read(&mut reader)?;
         reader.end()?;
+        // Such as a torque while the speed is imposed, or -0 for no.
+        if state.to_bytes() != bytes {
+            return Err(Damage::Value("an unused place".into()).into());
+        }
         Ok(state)
     }
 
