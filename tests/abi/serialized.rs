@@ -6,7 +6,7 @@ use crate::support::{
     child::{run_alone, watched},
     instance::bits,
 };
-use helicopter_rotor::block::variables::{GUID, REALS, STATES};
+use helicopter_rotor::block::variables::{Causality, GUID, REALS, STATES};
 use proptest::prelude::*;
 use std::{env, fs, path::PathBuf, ptr};
 
@@ -208,10 +208,15 @@ fn bytes_that_are_no_state_of_this_fmu_are_refused_with_the_reason() {
     );
     let nan = f64::NAN.to_le_bytes();
     refused(&hostile(CONTENT_AT + 3, &nan), &["the time"]);
-    // A stop time that is not there, as no writer says it.
-    let minus_zero = (-0.0_f64).to_le_bytes();
-    refused(&hostile(CONTENT_AT + 3 + 8, &minus_zero), &["not written"]);
+    // Where there is no stop time, and where a torque is no longer one that drives.
+    let unused = "not written";
+    let (minus_one, minus_zero) = ((-1.0_f64).to_le_bytes(), (-0.0_f64).to_le_bytes());
+    refused(&hostile(CONTENT_AT + 3 + 16, &minus_one), &[unused]);
+    refused(&hostile(CONTENT_AT + 3 + 8, &minus_zero), &[unused]);
     let values = CONTENT_AT + 3 + 24;
+    let inputs = REALS.iter().filter(|v| v.causality == Causality::Input);
+    let operation = values + 8 * (REALS.len() + 2 * inputs.count() + STATES.len() + 1);
+    refused(&hostile(operation + 8 * 15, &[0; 8]), &[unused]);
     for (i, v) in REALS.iter().enumerate() {
         refused(&hostile(values + 8 * i, &nan), &[v.name]);
         if v.min.is_finite() && !v.causality.is_computed() {
