@@ -107,6 +107,8 @@ impl RotorBlock {
             self.update()?;
         }
         let flight = Flight::with_reals(&self.values, reals).map_err(BlockError::from)?;
+        // A rotor made anew lets go of the twin of the last one.
+        self.rotor()?;
         let mut twin = match self.twin.take() {
             Some(twin) => twin,
             None => self.rotor()?.with_numbers(),
