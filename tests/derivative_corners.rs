@@ -258,6 +258,19 @@ fn derivatives_at_known_corners() {
     block.start().unwrap();
     to_both_sides(&mut block, real::VELOCITY_3);
     to_both_sides(&mut block, real::COLLECTIVE);
+
+    // A section in still air meets a flow as soon as the rotor begins to turn.
+    let mut block = default_block();
+    set(&mut block, real::RPM, 0.0);
+    block.start().unwrap();
+    let mach = exact_along(&mut block, &[real::STATION_20__MACH], real::RPM, 1.0)[0];
+    set(&mut block, real::RPM, 1e-3);
+    block.update().unwrap();
+    let difference = get(&block, real::STATION_20__MACH) / 1e-3;
+    assert!(
+        mach > 0.0 && (mach / difference - 1.0).abs() < 0.01,
+        "{mach} {difference}"
+    );
 }
 
 /// Models without inflow states have none that could break the symmetry of the disc.

@@ -41,7 +41,7 @@ impl Compressibility {
             let held = mach.at_most(LARGEST_MACH);
             held * held
         };
-        let beta = (-mach_squared + 1.0).sqrt();
+        let beta = (S::one() - mach_squared).sqrt();
         let half_lift = lift.abs() * 0.5;
         match self {
             Self::None => S::one(),

@@ -110,7 +110,7 @@ impl Law {
         if !alpha.is_above(FRAC_PI_2) {
             return self.stalled_lift(at_stall, alpha);
         }
-        let mirrored = -alpha + PI;
+        let mirrored = S::constant(PI) - alpha;
         let lift = if !mirrored.is_below(self.stall) {
             self.stalled_lift(at_stall, mirrored)
         } else {
@@ -138,7 +138,7 @@ impl Law {
     fn drag<S: Scalar>(&self, alpha: S) -> S {
         let alpha = alpha.abs();
         let folded = if alpha.is_above(FRAC_PI_2) {
-            -alpha + PI
+            S::constant(PI) - alpha
         } else {
             alpha
         };

@@ -84,7 +84,7 @@ impl Curve {
             i += 1;
         }
         if x >= self.alpha[i + 1] {
-            // The last point itself.
+            // The last point itself, or a corner that is left downwards.
             return (alpha - self.alpha[i + 1]) * self.slope[i] + self.value[i + 1];
         }
         (alpha - self.alpha[i]) * self.slope[i] + self.value[i]
@@ -142,7 +142,7 @@ impl Table {
 
 /// The same angle between -pi and pi.
 pub fn wrapped<S: Scalar>(alpha: S) -> S {
-    if !alpha.is_below(-PI) && !alpha.is_above(PI) && !alpha.value().is_nan() {
+    if !(alpha.is_below(-PI) || alpha.is_above(PI)) {
         return alpha;
     }
     let turns = libm::round(alpha.value() / (2.0 * PI));

@@ -77,7 +77,7 @@ impl<S: Scalar> Stream<S> {
         }
         let skew = self.skew(induced);
         let coupling = skew * (15.0 * PI / 64.0);
-        let (a, d) = (0.5, (-(skew * skew) + 1.0) * 2.0);
+        let (a, d) = (0.5, (S::one() - skew * skew) * 2.0);
         let determinant = d * a + coupling * coupling;
         Gains {
             mean: total * d / determinant,
