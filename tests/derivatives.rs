@@ -2,13 +2,17 @@
 
 mod support {
     pub mod block;
+    pub mod derivative;
 }
 
 use helicopter_rotor::block::{
     DerivativeError, RotorBlock,
-    variables::{Causality, INTEGERS, REALS, STATES, boolean, integer, is_state, real, string},
+    variables::{INTEGERS, REALS, boolean, integer, real, string},
 };
-use support::block::{choose, default_block, project, set};
+use support::{
+    block::{choose, default_block, project, set},
+    derivative::{exact, inputs_and_states, known_scale, outputs_and_rates, unknown_scale},
+};
 
 /// Ways to hold the blades.
 const BLADES: [&str; 3] = ["automatic", "disc", "flapping"];
@@ -146,52 +150,6 @@ fn under_way(mut block: RotorBlock) -> RotorBlock {
     block.step(0.003).unwrap();
     block.begin_integration().unwrap();
     block
-}
-
-fn inputs_and_states() -> Vec<usize> {
-    let is_known = |i: &usize| REALS[*i].causality == Causality::Input || is_state(*i as u32);
-    (0..REALS.len()).filter(is_known).collect()
-}
-
-fn outputs_and_rates() -> Vec<usize> {
-    let is_rate = |i: usize| STATES.iter().any(|row| row.derivative == i);
-    let is_unknown = |i: &usize| REALS[*i].causality == Causality::Output || is_rate(*i);
-    (0..REALS.len()).filter(is_unknown).collect()
-}
-
-/// A change of a known that counts as one: its order of magnitude.
-fn known_scale(place: usize) -> f64 {
-    if let Some(state) = STATES.iter().find(|row| row.place == place) {
-        return state.nominal;
-    }
-    match (place, REALS[place].unit) {
-        (real::ALTITUDE, _) => 1000.0,
-        (_, "rad") => 0.1,
-        (_, "rev/min") => 1000.0,
-        (_, "m/s") => 10.0,
-        (_, "N.m") => 5.0,
-        _ => 1.0,
-    }
-}
-
-/// A change of an unknown that counts as one, at least.
-fn unknown_scale(place: usize) -> f64 {
-    match REALS[place].unit {
-        "N" | "N.m" | "W" => 1.0,
-        "m/s2" | "rad/s2" => 1.0,
-        "1" => 1e-4,
-        _ => 0.01,
-    }
-}
-
-/// The exact derivatives of unknowns by one known.
-fn exact(block: &mut RotorBlock, unknowns: &[usize], known: usize) -> Vec<f64> {
-    let references: Vec<u32> = unknowns.iter().map(|u| *u as u32).collect();
-    let mut out = vec![f64::NAN; unknowns.len()];
-    block
-        .directional_derivative(&references, &[known as u32], &[1.0], &mut out)
-        .unwrap_or_else(|error| panic!("{}: {error}", REALS[known].name));
-    out
 }
 
 /// The same by differences of the fourth order, with steps of `part` of the known's scale.

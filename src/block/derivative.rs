@@ -42,7 +42,9 @@ impl RotorBlock {
     /// `knowns` (inputs, states, tunable parameters) take with the seeds `along`: into `out` the sums of
     /// (d unknown/d known) times seed, unit of the unknown. At the present inputs and states; while the block is
     /// configured, with the states that the start finds, which move with the inputs. At a corner of a table or of
-    /// the model, the one-sided derivative towards the side to which the direction leads. All or nothing.
+    /// the model, the one-sided derivative towards the side to which the direction leads; within rounding of one,
+    /// that of either side. Where a value jumps, at the standstill of the rotor or of all air, the derivative knows
+    /// nothing of what lies beyond: coefficients and induced velocity of a rotor at rest stay 0. All or nothing.
     pub fn directional_derivative(
         &mut self,
         unknowns: &[u32],
@@ -107,6 +109,8 @@ impl RotorBlock {
             self.update()?;
         }
         let flight = Flight::with_reals(&self.values, reals).map_err(BlockError::from)?;
+        // A rotor made anew lets go of the twin of the last one.
+        self.rotor()?;
         let mut twin = match self.twin.take() {
             Some(twin) => twin,
             None => self.rotor()?.with_numbers(),

@@ -45,13 +45,13 @@ impl<S: Scalar> Air<S> {
 
         let geopotential = altitude * EARTH_RADIUS / (altitude + EARTH_RADIUS);
         let below = geopotential.at_most(TROPOPAUSE);
-        let temperature = -(below * LAPSE_RATE) + SEA_LEVEL_TEMPERATURE;
+        let temperature = S::constant(SEA_LEVEL_TEMPERATURE) - below * LAPSE_RATE;
         let exponent = STANDARD_GRAVITY / (GAS_CONSTANT * LAPSE_RATE);
         let mut pressure =
             (temperature / SEA_LEVEL_TEMPERATURE).power(exponent) * SEA_LEVEL_PRESSURE;
-        if geopotential.value() > TROPOPAUSE {
+        if geopotential.is_above(TROPOPAUSE) {
             let scale_height = temperature * GAS_CONSTANT / STANDARD_GRAVITY;
-            pressure *= ((-geopotential + TROPOPAUSE) / scale_height).exp();
+            pressure *= ((S::constant(TROPOPAUSE) - geopotential) / scale_height).exp();
         }
         Self::new(pressure / (temperature * GAS_CONSTANT), temperature)
     }

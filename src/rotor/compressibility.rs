@@ -32,21 +32,26 @@ impl Compressibility {
         if self == Self::None {
             return lift;
         }
+        lift / self.divisor(lift, mach)
+    }
+
+    /// By what the incompressible lift coefficient is divided.
+    pub fn divisor<S: Scalar>(self, lift: S, mach: S) -> S {
         let mach_squared = {
             let held = mach.at_most(LARGEST_MACH);
             held * held
         };
-        let beta = (-mach_squared + 1.0).sqrt();
+        let beta = (S::one() - mach_squared).sqrt();
         let half_lift = lift.abs() * 0.5;
-        let denominator = match self {
-            Self::None | Self::PrandtlGlauert => beta,
+        match self {
+            Self::None => S::one(),
+            Self::PrandtlGlauert => beta,
             Self::KarmanTsien => beta + mach_squared / (beta + 1.0) * half_lift,
             Self::Laitone => {
                 beta + mach_squared * (mach_squared * (0.5 * (HEAT_RATIO - 1.0)) + 1.0) / beta
                     * half_lift
             }
-        };
-        lift / denominator
+        }
     }
 }
 

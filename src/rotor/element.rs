@@ -130,6 +130,7 @@ impl<S: Scalar> Element<'_, S> {
         if speed.value() == 0.0 {
             return SectionLoad {
                 angle_of_attack: wrapped(pitch),
+                speed,
                 ..SectionLoad::none()
             };
         }

@@ -5,7 +5,7 @@
 //!
 //! A dual number (of the `num-dual` crate) carries the derivative along one direction. Where the physics has a
 //! corner, in a table or in a magnitude, it carries the one-sided derivative towards the side to which the
-//! direction leads, or of the interval that begins there.
+//! direction leads: branches whose sides meet ask `is_below` and `is_above`, not the value.
 
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
 use num_dual::Dual64;
@@ -36,6 +36,10 @@ pub trait Scalar:
     fn constant(value: f64) -> Self;
     /// The value without derivatives.
     fn value(self) -> f64;
+    /// Whether it lies below `limit`, or at it and about to fall below.
+    fn is_below(self, limit: f64) -> bool;
+    /// Whether it lies above `limit`, or at it and about to rise above.
+    fn is_above(self, limit: f64) -> bool;
     /// Whether the magnitude is at most `most` and does not change.
     fn is_nothing(self, most: f64) -> bool;
     fn sin(self) -> Self;
@@ -50,16 +54,31 @@ pub trait Scalar:
     fn atan2(self, x: Self) -> Self;
     /// Distance of the point (self, other) from the origin.
     fn hypot(self, other: Self) -> Self;
-    fn abs(self) -> Self;
+    fn abs(self) -> Self {
+        if self.is_below(0.0) { -self } else { self }
+    }
     /// `self` or the constant `floor`, whichever is larger.
-    fn at_least(self, floor: f64) -> Self;
+    fn at_least(self, floor: f64) -> Self {
+        if self.is_below(floor) {
+            Self::constant(floor)
+        } else {
+            self
+        }
+    }
     /// `self` or the constant `ceiling`, whichever is smaller.
-    fn at_most(self, ceiling: f64) -> Self;
+    fn at_most(self, ceiling: f64) -> Self {
+        if self.is_above(ceiling) {
+            Self::constant(ceiling)
+        } else {
+            self
+        }
+    }
     /// Cosine and sine of the direction of the point (x, y); at the origin of that into which it leaves it,
     /// and none if it stays there.
     fn direction(x: Self, y: Self) -> Option<(Self, Self)>;
     /// The root of an equation, which was found at `place`. A dual number gets its derivative by the theorem of the
-    /// implicit function, dx = -(dR/dp) dp/(dR/dx), at the root, not through the search for it.
+    /// implicit function, dx = -(dR/dp) dp/(dR/dx), at the root, not through the search for it; where the root lies at
+    /// a corner of the residual, with the slope of the side to which it moves.
     fn at_root(place: f64, residual: impl FnMut(Self) -> Self) -> Self;
 }
 
@@ -69,6 +88,12 @@ impl Scalar for f64 {
     }
     fn value(self) -> f64 {
         self
+    }
+    fn is_below(self, limit: f64) -> bool {
+        self < limit
+    }
+    fn is_above(self, limit: f64) -> bool {
+        self > limit
     }
     fn is_nothing(self, most: f64) -> bool {
         f64::abs(self) <= most
@@ -100,15 +125,6 @@ impl Scalar for f64 {
     fn hypot(self, other: Self) -> Self {
         libm::hypot(self, other)
     }
-    fn abs(self) -> Self {
-        if self < 0.0 { -self } else { self }
-    }
-    fn at_least(self, floor: f64) -> Self {
-        if self < floor { floor } else { self }
-    }
-    fn at_most(self, ceiling: f64) -> Self {
-        if self > ceiling { ceiling } else { self }
-    }
     fn direction(x: Self, y: Self) -> Option<(Self, Self)> {
         let distance = libm::hypot(x, y);
         (distance != 0.0).then(|| (x / distance, y / distance))
@@ -118,11 +134,18 @@ impl Scalar for f64 {
     }
 }
 
-/// A function of `x` with the value and slope that it has there; what does not change stays so, whatever the slope.
+/// A function of `x` with the value and slope that it has there; what does not change stays so whatever the slope,
+/// and a function without slope whatever the change.
 fn chain(x: Dual64, value: f64, slope: f64) -> Dual64 {
-    let change = if x.eps == 0.0 { 0.0 } else { slope * x.eps };
+    let is_still = x.eps == 0.0 || slope == 0.0;
+    let change = if is_still { 0.0 } else { slope * x.eps };
     Dual64::new(value, change)
 }
+
+/// Most steps of the secant method to the change of a root at a corner, and the part of the equation that is left to
+/// rounding. Without a corner the first step is the theorem, and ends the search.
+const SECANTS: u32 = 30;
+const ROUNDING: f64 = 1e-10;
 
 impl Scalar for Dual64 {
     fn constant(value: f64) -> Self {
@@ -130,6 +153,12 @@ impl Scalar for Dual64 {
     }
     fn value(self) -> f64 {
         self.re
+    }
+    fn is_below(self, limit: f64) -> bool {
+        self.re < limit || (self.re == limit && self.eps < 0.0)
+    }
+    fn is_above(self, limit: f64) -> bool {
+        self.re > limit || (self.re == limit && self.eps > 0.0)
     }
     fn is_nothing(self, most: f64) -> bool {
         self.re.is_nothing(most) && self.eps == 0.0
@@ -174,27 +203,6 @@ impl Scalar for Dual64 {
         };
         Self::new(distance, change)
     }
-    fn abs(self) -> Self {
-        if self.re < 0.0 || (self.re == 0.0 && self.eps < 0.0) {
-            -self
-        } else {
-            self
-        }
-    }
-    fn at_least(self, floor: f64) -> Self {
-        if self.re < floor || (self.re == floor && self.eps < 0.0) {
-            Self::from_re(floor)
-        } else {
-            self
-        }
-    }
-    fn at_most(self, ceiling: f64) -> Self {
-        if self.re > ceiling || (self.re == ceiling && self.eps > 0.0) {
-            Self::from_re(ceiling)
-        } else {
-            self
-        }
-    }
     fn direction(x: Self, y: Self) -> Option<(Self, Self)> {
         if x.re != 0.0 || y.re != 0.0 {
             let distance = x.hypot(y);
@@ -204,12 +212,26 @@ impl Scalar for Dual64 {
         direction.map(|(cos, sin)| (Self::from_re(cos), Self::from_re(sin)))
     }
     fn at_root(place: f64, mut residual: impl FnMut(Self) -> Self) -> Self {
-        let here = residual(Self::from_re(place)).eps;
-        if here == 0.0 {
+        // How the residual changes where the root moves so fast: linear, but where corners meet at the root.
+        let mut surplus = |change: f64| residual(Self::new(place, change)).eps;
+        let still = surplus(0.0);
+        if still == 0.0 {
             return Self::from_re(place);
         }
-        let slope = residual(Self::new(place, 1.0)).eps - here;
-        Self::new(place, -here / slope)
+        let (mut last, mut at) = ((1.0, surplus(1.0)), (0.0, still));
+        let mut best = (f64::INFINITY, f64::NAN);
+        for _ in 0..SECANTS {
+            let change = at.0 - at.1 * (at.0 - last.0) / (at.1 - last.1);
+            (last, at) = (at, (change, surplus(change)));
+            if at.1.is_nan() || at.1.abs() >= best.0 {
+                break;
+            }
+            best = (at.1.abs(), change);
+            if best.0 <= ROUNDING * still.abs() {
+                break;
+            }
+        }
+        Self::new(place, best.1)
     }
 }
 
@@ -271,5 +293,25 @@ mod tests {
         let x = Dual64::at_root(2.0, |x| x * x - p);
         assert_eq!((x.re, x.eps), (2.0, 0.75));
         assert_eq!(f64::at_root(2.0, |x| x * x - 4.0), 2.0);
+    }
+
+    /// x + |x|/2 = p, and x + |x - p|/2 = 2 p, whose corner moves with p, at p = 0.
+    #[test]
+    fn a_root_at_a_corner_moves_by_the_side_to_which_it_goes() {
+        let moves = |change: f64, residual: fn(Dual64, Dual64) -> Dual64| {
+            let p = Dual64::new(0.0, change);
+            Dual64::at_root(0.0, |x| residual(x, p)).eps
+        };
+        let bent = |x: Dual64, p: Dual64| x + x.abs() * 0.5 - p;
+        assert!((moves(3.0, bent) - 2.0).abs() < 1e-9);
+        assert!((moves(-3.0, bent) + 6.0).abs() < 1e-9);
+        let both = |x: Dual64, p: Dual64| x + (x - p).abs() * 0.5 - p * 2.0;
+        assert!((moves(3.0, both) - 5.0).abs() < 1e-8);
+        assert!((moves(-3.0, both) + 9.0).abs() < 1e-8);
+    }
+
+    #[test]
+    fn a_function_without_slope_stays_whatever_the_change() {
+        assert_eq!(Dual64::new(-f64::INFINITY, f64::INFINITY).exp().eps, 0.0);
     }
 }

@@ -73,7 +73,7 @@ impl<S: Scalar> Rotor<S> {
         let none = SYMMETRIC * speeds.value();
         let is_inflow_symmetric = match &self.peters_he {
             Some(wake) => wake.is_axisymmetric(&state.inflow, none),
-            None => state.field().is_axisymmetric(none),
+            None => self.inflow_states() == 0 || state.field().is_axisymmetric(none),
         };
         let is_symmetric = flow.is_axisymmetric() && is_inflow_symmetric;
         let is_blades = match self.models.blades {

@@ -72,7 +72,7 @@ impl TipLoss {
 
     /// r/R at which the lift ends, where it depends on the thrust coefficient (its magnitude).
     pub fn end_at_thrust<S: Scalar>(self, blades: f64, thrust_coefficient: S) -> Option<S> {
-        let end = -(thrust_coefficient.sqrt() / blades) + 1.0;
+        let end = S::one() - thrust_coefficient.sqrt() / blades;
         (self == Self::PrandtlThrust).then(|| end.at_least(0.0))
     }
 }

@@ -93,25 +93,25 @@ impl Line {
 impl Law {
     /// Lift coefficient up to stall at an angle >= 0.
     fn attached<S: Scalar>(&self, line: Line, alpha: S) -> S {
-        if line == Line::Broken && alpha.value() > EDGE {
+        if line == Line::Broken && alpha.is_above(EDGE) {
             return (alpha - EDGE) * self.slope_c + self.slope_a * EDGE;
         }
         alpha * line.slope(self)
     }
 
     fn lift<S: Scalar>(&self, line: Line, alpha: S) -> S {
-        if alpha.value() < 0.0 {
+        if alpha.is_below(0.0) {
             return -self.lift(line, -alpha);
         }
-        if alpha.value() <= self.stall {
+        if !alpha.is_above(self.stall) {
             return self.attached(line, alpha);
         }
         let at_stall = self.attached(line, self.stall);
-        if alpha.value() <= FRAC_PI_2 {
+        if !alpha.is_above(FRAC_PI_2) {
             return self.stalled_lift(at_stall, alpha);
         }
-        let mirrored = -alpha + PI;
-        let lift = if mirrored.value() >= self.stall {
+        let mirrored = S::constant(PI) - alpha;
+        let lift = if !mirrored.is_below(self.stall) {
             self.stalled_lift(at_stall, mirrored)
         } else {
             mirrored * (at_stall / self.stall)
@@ -137,12 +137,12 @@ impl Law {
 
     fn drag<S: Scalar>(&self, alpha: S) -> S {
         let alpha = alpha.abs();
-        let folded = if alpha.value() > FRAC_PI_2 {
-            -alpha + PI
+        let folded = if alpha.is_above(FRAC_PI_2) {
+            S::constant(PI) - alpha
         } else {
             alpha
         };
-        if folded.value() <= self.stall {
+        if !folded.is_above(self.stall) {
             return self.attached_drag(folded);
         }
         let (sin_stall, cos_stall) = (libm::sin(self.stall), libm::cos(self.stall));

@@ -59,13 +59,13 @@ impl Layers {
             Axis::Mach => flow.mach,
         };
         // A flow that is no number has no place among them: it comes from states out of all bounds.
-        if number.value().is_nan() || number.value() <= self.position[0] {
+        if number.value().is_nan() || !number.is_above(self.position[0]) {
             return (0, None);
         }
-        if number.value() >= self.position[last] {
+        if !number.is_below(self.position[last]) {
             return (last, None);
         }
-        let upper = self.position.partition_point(|p| *p <= number.value());
+        let upper = self.position.partition_point(|p| !number.is_below(*p));
         let (p0, p1) = (self.position[upper - 1], self.position[upper]);
         (upper - 1, Some((number - p0) / (p1 - p0)))
     }

@@ -148,19 +148,24 @@ impl Airfoil {
             (Data::Tables { lift, .. }, _) => lift.value(alpha, flow),
             (Data::Laws(laws), _) => laws.lift(model.line(pitch), alpha, flow),
         };
-        self.compressible(model, lift, flow.mach)
+        self.rule(model).correct(lift, flow.mach)
     }
 
-    /// The lift coefficient at a Mach number from the table's. A table of several Mach numbers
-    /// takes the place of a rule.
-    pub fn compressible<S: Scalar>(&self, model: &SectionModel, lift: S, mach: S) -> S {
-        if let Data::Tables { lift: table, .. } = &self.data
-            && model.lift == Lift::Table
-            && table.layers().resolves_mach()
-        {
-            return lift;
+    /// The lift coefficient at a Mach number over the table's, which is `lift`.
+    pub fn compressibility<S: Scalar>(&self, model: &SectionModel, lift: S, mach: S) -> S {
+        S::one() / self.rule(model).divisor(lift, mach)
+    }
+
+    /// A table of several Mach numbers takes the place of a rule.
+    fn rule(&self, model: &SectionModel) -> Compressibility {
+        match &self.data {
+            Data::Tables { lift, .. }
+                if model.lift == Lift::Table && lift.layers().resolves_mach() =>
+            {
+                Compressibility::None
+            }
+            _ => model.compressibility,
         }
-        model.compressibility.correct(lift, mach)
     }
 
     /// Drag coefficient at angle of attack `alpha` (rad, any value).
@@ -183,21 +188,20 @@ impl Airfoil {
             return drag;
         };
         let reynolds = flow.reynolds.at_least(LOWEST_CORRECTED_REYNOLDS);
-        let nearest = reynolds.value().clamp(lowest, highest);
         let is_off = model.drag_reynolds_exponent == 0.0 || !self.lifts();
-        if is_off || nearest == reynolds.value() {
+        if is_off || !(reynolds.is_below(lowest) || reynolds.is_above(highest)) {
             return drag;
         }
-        let ratio = S::constant(nearest) / reynolds;
+        let ratio = S::constant(reynolds.value().clamp(lowest, highest)) / reynolds;
         let factor = (ratio.ln() * model.drag_reynolds_exponent).exp();
         let (negative, positive) = self.stall_angles(flow);
-        let stall = if wrapped(alpha).value() < 0.0 {
+        let stall = if wrapped(alpha).is_below(0.0) {
             negative
         } else {
             positive
         };
         let at_stall = self.table_drag(stall, flow);
-        let scaled = if drag.value() > at_stall.value() {
+        let scaled = if (drag - at_stall).is_above(0.0) {
             at_stall
         } else {
             drag

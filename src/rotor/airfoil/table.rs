@@ -77,14 +77,14 @@ impl Curve {
         let part = ((x + PI) * (PARTS as f64 / (2.0 * PI))) as usize;
         let mut i = usize::from(self.interval[part.min(PARTS - 1)]);
         // Rounding may name the part before or behind.
-        while i > 0 && x < self.alpha[i] {
+        while i > 0 && alpha.is_below(self.alpha[i]) {
             i -= 1;
         }
-        while i + 1 < self.slope.len() && x >= self.alpha[i + 1] {
+        while i + 1 < self.slope.len() && !alpha.is_below(self.alpha[i + 1]) {
             i += 1;
         }
         if x >= self.alpha[i + 1] {
-            // The last point itself.
+            // The last point itself, or a corner that is left downwards.
             return (alpha - self.alpha[i + 1]) * self.slope[i] + self.value[i + 1];
         }
         (alpha - self.alpha[i]) * self.slope[i] + self.value[i]
@@ -142,11 +142,10 @@ impl Table {
 
 /// The same angle between -pi and pi.
 pub fn wrapped<S: Scalar>(alpha: S) -> S {
-    let value = alpha.value();
-    if (-PI..=PI).contains(&value) {
+    if !(alpha.is_below(-PI) || alpha.is_above(PI)) {
         return alpha;
     }
-    let turns = libm::round(value / (2.0 * PI));
+    let turns = libm::round(alpha.value() / (2.0 * PI));
     (alpha - turns * 2.0 * PI).at_least(-PI).at_most(PI)
 }
 

@@ -51,7 +51,7 @@ const STANDSTILL: f64 = 1e-6;
 /// * `climb`: m/s
 /// * `pitch_flow`: theta Omega r, m/s
 fn through_flow<S: Scalar>(a: S, climb: S, pitch_flow: S) -> S {
-    if pitch_flow.value() < 0.0 {
+    if pitch_flow.is_below(0.0) {
         return -through_flow(a, -climb, -pitch_flow);
     }
     let upward = a + climb * 0.5;
@@ -100,12 +100,8 @@ pub fn solve<S: Scalar>(
     // incompressible slope for the lift, and again with the slope corrected at that lift.
     let through = loaded_flow(element, rotation, climb, slope, pitch)?;
     let lift = slope * (pitch - through / rotation);
-    let corrected = if lift.value() == 0.0 {
-        slope
-    } else {
-        let at_mach = |airfoil: &Airfoil| airfoil.compressible(element.model, lift, flow.mach);
-        slope * element.section.mixed(at_mach) / lift
-    };
+    let gain = |airfoil: &Airfoil| airfoil.compressibility(element.model, lift, flow.mach);
+    let corrected = slope * element.section.mixed(gain);
     let through = if corrected.value() == slope.value() {
         through
     } else {

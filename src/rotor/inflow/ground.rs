@@ -51,7 +51,7 @@ impl<S: Scalar> Ground<S> {
         let t = ((height - FADING.0) / (FADING.1 - FADING.0))
             .at_least(0.0)
             .at_most(1.0);
-        let left = -(t * t * (-(t * 2.0) + 3.0)) + 1.0;
+        let left = S::one() - t * t * (S::constant(3.0) - t * 2.0);
         let (along, down) = (edgewise * edgewise, induced * induced);
         let slow = if along.is_nothing(0.0) {
             S::one()
@@ -61,12 +61,12 @@ impl<S: Scalar> Ground<S> {
         match self.effect {
             GroundEffect::None => S::one(),
             GroundEffect::CheesemanBennett => {
-                let thrust = -(left * slow / (height * 16.0 * height)) + 1.0;
+                let thrust = S::one() - left * slow / (height * 16.0 * height);
                 thrust * thrust.sqrt()
             }
             GroundEffect::Hayden => {
                 let power = S::one() / (S::constant(0.0379 * 4.0) / (height * height) + 0.9926);
-                -(left * slow * (-power + 1.0)) + 1.0
+                S::one() - left * slow * (S::one() - power)
             }
         }
     }

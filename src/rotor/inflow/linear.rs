@@ -39,6 +39,33 @@ pub struct Coefficients<S = f64> {
     pub ky: S,
 }
 
+/// The flow that skews the wake: along the disc and away from it, both >= 0, and the resultant. Any unit.
+pub struct Wake<S> {
+    pub along: S,
+    pub down: S,
+    pub flow: S,
+}
+
+impl<S: Scalar> Wake<S> {
+    /// From the flow along the disc (>= 0) and through it, m/s. In still air only the direction counts into which
+    /// the flow is about to leave it; none if it stays still.
+    pub fn new(edgewise: S, through: S) -> Option<Self> {
+        let flow = edgewise.hypot(through);
+        if flow.value() != 0.0 {
+            return Some(Self {
+                along: edgewise,
+                down: through.abs(),
+                flow,
+            });
+        }
+        S::direction(edgewise, through).map(|(along, down)| Self {
+            along,
+            down: down.abs(),
+            flow: S::one(),
+        })
+    }
+}
+
 impl Skew {
     pub const ALL: [Self; 8] = [
         Self::Uniform,
@@ -59,35 +86,32 @@ impl Skew {
     /// tan(chi/2) = edgewise/(h + |through|), nothing divides by zero but in still air, where all are 0.
     /// Drees' terms in mu alone are held beyond `LARGEST_FLOW`.
     pub fn coefficients<S: Scalar>(self, edgewise: S, through: S, tip_speed: S) -> Coefficients<S> {
-        let flow = edgewise.hypot(through);
-        if flow.value() == 0.0 {
+        let Some(Wake { along, down, flow }) = Wake::new(edgewise, through) else {
             let (kx, ky) = (S::zero(), S::zero());
             return Coefficients { kx, ky };
-        }
-        let sin = edgewise / flow;
-        let half_tangent = edgewise / (flow + through.abs());
-        let largest = flow / LARGEST_FLOW;
-        let reference = if tip_speed.value() > largest.value() {
-            tip_speed
-        } else {
-            largest
         };
-        let mu = edgewise / reference;
+        let sin = along / flow;
+        let half_tangent = along / (flow + down);
+        let mut ky = S::zero();
         let kx = match self {
             Self::Uniform => S::zero(),
             Self::Coleman => half_tangent,
             // (1 - cos chi)/sin chi = tan(chi/2), and mu/sin chi = h/tip speed.
-            Self::Drees => (half_tangent - mu * 1.8 * flow / reference) * (4.0 / 3.0),
-            Self::Payne => edgewise * (4.0 / 3.0) / (through.abs() * 1.2 + edgewise),
+            Self::Drees => {
+                let flow = edgewise.hypot(through);
+                let (mu, total) = if (tip_speed * LARGEST_FLOW).value() > flow.value() {
+                    (edgewise / tip_speed, flow / tip_speed)
+                } else {
+                    (sin * LARGEST_FLOW, S::constant(LARGEST_FLOW))
+                };
+                ky = mu * -2.0;
+                (half_tangent - mu * 1.8 * total) * (4.0 / 3.0)
+            }
+            Self::Payne => along * (4.0 / 3.0) / (down * 1.2 + along),
             Self::WhiteBlake => sin * SQRT_2,
             Self::PittPeters => half_tangent * (15.0 * PI / 32.0),
             Self::Howlett => sin * sin,
             Self::GlauertHighSpeed => sin * 1.2,
-        };
-        let ky = if self == Self::Drees {
-            mu * -2.0
-        } else {
-            S::zero()
         };
         Coefficients { kx, ky }
     }

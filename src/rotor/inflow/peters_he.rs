@@ -260,7 +260,7 @@ impl Wake {
         let cosines = self.indices.len();
         let mut pressures = [S::zero(); MOST_STATES];
         pressures[..states.len()].copy_from_slice(states);
-        if flow.total.value() > 0.0 {
+        if flow.total.is_above(0.0) {
             let (of_cosines, of_sines) = pressures.split_at_mut(cosines);
             solve(&mut self.gains(flow.skew, 0), &mut of_cosines[..cosines]);
             let sines = cosines - self.axial;

@@ -25,6 +25,7 @@
 use super::{
     Field,
     descent::{Descent, MassFlow},
+    linear::Wake,
 };
 use crate::rotor::scalar::Scalar;
 use core::f64::consts::PI;
@@ -65,8 +66,7 @@ impl<S: Scalar> Stream<S> {
             speed: total,
             slope: slopes,
         } = self.descent.mass_flow(self.edgewise, self.climb, induced);
-        if total.value() == 0.0 {
-            // What little the mass flow may change meets a field that is not there.
+        if total.is_nothing(0.0) {
             return Gains {
                 mean: S::zero(),
                 mean_by_cosine: S::zero(),
@@ -77,7 +77,7 @@ impl<S: Scalar> Stream<S> {
         }
         let skew = self.skew(induced);
         let coupling = skew * (15.0 * PI / 64.0);
-        let (a, d) = (0.5, (-(skew * skew) + 1.0) * 2.0);
+        let (a, d) = (0.5, (S::one() - skew * skew) * 2.0);
         let determinant = d * a + coupling * coupling;
         Gains {
             mean: total * d / determinant,
@@ -90,12 +90,8 @@ impl<S: Scalar> Stream<S> {
 
     /// X = tan(chi/2) of the wake's skew, 0 in still air.
     pub fn skew(&self, induced: S) -> S {
-        let through = self.climb + induced;
-        let resultant = self.edgewise.hypot(through);
-        if resultant.value() == 0.0 {
-            return S::zero();
-        }
-        self.edgewise / (resultant + through.abs())
+        Wake::new(self.edgewise, self.climb + induced)
+            .map_or(S::zero(), |wake| wake.along / (wake.flow + wake.down))
     }
 
     /// dv/dt, m/s2.

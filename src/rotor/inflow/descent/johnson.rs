@@ -48,10 +48,11 @@ impl<S: Scalar> Boundary<S> {
         if edgewise.value().is_nan() || edgewise.value() >= V_XM {
             return None;
         }
-        let part = -((edgewise / V_XM) * (edgewise / V_XM)) + 1.0;
+        let share = edgewise / V_XM;
+        let part = S::one() - share * share;
         let (middle, half) = (0.5 * (N + X), 0.5 * (N - X));
         let upper = part.power(0.2) * half + middle;
-        let lower = -(part.power(1.5) * half) + middle;
+        let lower = S::constant(middle) - part.power(1.5) * half;
         Some(Self {
             upper,
             lower,
@@ -118,7 +119,7 @@ fn ratio<S: Scalar>(edgewise: S, climb: S) -> S {
         return base;
     }
     let share = edgewise / V_XM;
-    let fade = (-share.power(6.0) + 1.0).sqrt();
+    let fade = (S::one() - share.power(6.0)).sqrt();
     let at = |v_z: S, through: f64, own: f64| Knot {
         at: v_z,
         value: fade * (through - (own + helicopter(0.0, own))),
@@ -237,9 +238,9 @@ fn hermite<S: Scalar>(a: &Knot<S>, b: &Knot<S>, at: S) -> S {
         return a.value;
     }
     let t = (at - a.at) / width;
-    let (s, u) = (t * t, -t + 1.0);
+    let (s, u) = (t * t, S::one() - t);
     a.value * (t * 2.0 + 1.0) * u * u
-        + b.value * s * (-(t * 2.0) + 3.0)
+        + b.value * s * (S::constant(3.0) - t * 2.0)
         + width * (a.slope * t * u * u - b.slope * s * u)
 }
 

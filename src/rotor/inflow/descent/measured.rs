@@ -37,12 +37,12 @@ pub fn gain<S: Scalar>(ratio: S) -> (S, S) {
     let ((a, value_a, slope_a), (b, value_b, slope_b)) = (KNOTS[upper - 1], KNOTS[upper]);
     let width = b - a;
     let t = (ratio - a) / width;
-    let (s, u) = (t * t, -t + 1.0);
+    let (s, u) = (t * t, S::one() - t);
     let value = (t * 2.0 + 1.0) * value_a * u * u
-        + s * value_b * (-(t * 2.0) + 3.0)
+        + s * value_b * (S::constant(3.0) - t * 2.0)
         + (t * slope_a * u * u - s * slope_b * u) * width;
     let slope = t * 6.0 * u * (value_b - value_a) / width
-        + u * slope_a * (-(t * 3.0) + 1.0)
+        + u * slope_a * (S::one() - t * 3.0)
         + t * slope_b * (t * 3.0 - 2.0);
     (value, slope)
 }

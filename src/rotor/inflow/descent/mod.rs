@@ -60,7 +60,12 @@ impl Descent {
     pub fn mass_flow<S: Scalar>(self, edgewise: S, climb: S, induced: S) -> MassFlow<S> {
         let speed = self.speed(edgewise, climb, induced);
         if speed.value() == 0.0 {
-            let slope = S::zero();
+            // Where the rotor induces nothing, the wake that is about to begin; where it brings its own air to
+            // rest, v V' has a corner and no slope.
+            let slope = match S::direction(climb + induced, edgewise) {
+                Some((through, _)) if induced.value() == 0.0 => speed + induced * through,
+                _ => S::zero(),
+            };
             return MassFlow { speed, slope };
         }
         let is_descent = (climb * induced).value() < 0.0;
