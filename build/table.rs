@@ -32,6 +32,8 @@ pub struct Experiment {
     pub start_time: f64,
     pub stop_time: f64,
     pub step_size: f64,
+    /// Relative, for solvers of Model Exchange.
+    pub tolerance: f64,
 }
 
 #[derive(Deserialize)]

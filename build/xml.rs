@@ -180,6 +180,7 @@ fn default_experiment(xml: &mut Xml, table: &Table) -> io::Result<()> {
     xml.create_element("DefaultExperiment")
         .with_attribute(("startTime", number(experiment.start_time).as_str()))
         .with_attribute(("stopTime", number(experiment.stop_time).as_str()))
+        .with_attribute(("tolerance", number(experiment.tolerance).as_str()))
         .with_attribute(("stepSize", number(experiment.step_size).as_str()))
         .write_empty()?;
     Ok(())
