@@ -3,6 +3,7 @@
 //! * `c.rs`: the C types and functions of the standard, written apart from the code under test
 //! * `fmu.rs`: the .fmu as the program packages it, unpacked and loaded
 //! * `instance.rs`: an instance with variables by name, and its log
+//! * `model_exchange.rs`: its functions of Model Exchange
 //! * `child.rs`: a test run alone in a process of its own
 
 // Each test program uses a part of this.
@@ -12,6 +13,7 @@ pub mod c;
 pub mod child;
 pub mod fmu;
 pub mod instance;
+mod model_exchange;
 
 pub use fmu::Fmu;
 pub use instance::{Creation, Instance};
