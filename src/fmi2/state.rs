@@ -132,6 +132,10 @@ impl FmuState {
         let mut reader = Reader::new(&body[HEAD..]);
         let state = Self::read(&mut reader)?;
         reader.end()?;
+        // There is one way to write a state: what is not used, a stop time where there is none, is 0.
+        if state.to_bytes() != bytes {
+            return Err(Damage::Value("an unused number".into()).into());
+        }
         Ok(state)
     }
 

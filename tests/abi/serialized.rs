@@ -208,6 +208,16 @@ fn bytes_that_are_no_state_of_this_fmu_are_refused_with_the_reason() {
     );
     let nan = f64::NAN.to_le_bytes();
     refused(&hostile(CONTENT_AT + 3, &nan), &["the time"]);
+    // A stop time where there is none, and a "no" with a sign.
+    let (minus_one, minus_zero) = ((-1.0_f64).to_le_bytes(), (-0.0_f64).to_le_bytes());
+    refused(
+        &hostile(CONTENT_AT + 3 + 16, &minus_one),
+        &["an unused number"],
+    );
+    refused(
+        &hostile(CONTENT_AT + 3 + 8, &minus_zero),
+        &["an unused number"],
+    );
     let values = CONTENT_AT + 3 + 24;
     for (i, v) in REALS.iter().enumerate() {
         refused(&hostile(values + 8 * i, &nan), &[v.name]);
