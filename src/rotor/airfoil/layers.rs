@@ -84,6 +84,7 @@ impl Layers {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use num_dual::Dual64;
 
     fn at(layers: &Layers, reynolds: f64, mach: f64) -> f64 {
         layers.mixed(Similarity { reynolds, mach }, |i| [1.0, 3.0, 4.0][i])
@@ -107,6 +108,24 @@ mod tests {
         let layers = Layers::new(Axis::Mach, vec![0.1, 0.3, 0.7]);
         for (mach, value) in [(0.0, 1.0), (0.1, 1.0), (0.2, 2.0), (0.3, 3.0), (2.0, 4.0)] {
             assert!((at(&layers, 1e5, mach) - value).abs() < 1e-15);
+        }
+    }
+
+    /// At a number of the file the slope is that of the side to which the flow leads, and none beyond the ends.
+    #[test]
+    fn slopes_at_the_numbers_of_a_file() {
+        let layers = Layers::new(Axis::Mach, vec![0.1, 0.3, 0.7]);
+        let slope = |mach: f64, change: f64| {
+            let flow = Similarity {
+                reynolds: Dual64::from_re(1e5),
+                mach: Dual64::new(mach, change),
+            };
+            let mixed = layers.mixed(flow, |i| Dual64::from_re([1.0, 3.0, 4.0][i]));
+            mixed.eps / change
+        };
+        for (mach, below, above) in [(0.1, 0.0, 10.0), (0.3, 10.0, 2.5), (0.7, 2.5, 0.0)] {
+            assert!((slope(mach, -1.0) - below).abs() < 1e-12, "{mach}");
+            assert!((slope(mach, 1.0) - above).abs() < 1e-12, "{mach}");
         }
     }
 }

@@ -277,6 +277,7 @@ impl SectionModel {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use num_dual::Dual64;
 
     fn drag(alpha_deg: f64, reynolds: f64, exponent: f64) -> f64 {
         let text = "polar 1\nreynolds 1e5\n-180 0 0.02\n-10 -1 0.04\n0 0 0.01\n10 1 0.04\n90 0 2\n180 0 0.02\n";
@@ -305,5 +306,31 @@ mod tests {
             (added / (0.04 * (libm::pow(5.0, 0.2) - 1.0)) - 1.0).abs() < 1e-12,
             "{added}"
         );
+    }
+
+    /// At the end of the file's Reynolds numbers the power law begins on the side that lies beyond it.
+    #[test]
+    fn drag_at_the_end_of_the_reynolds_range_changes_by_the_power_law_beyond_it() {
+        let text = "polar 1\nreynolds 1e5\n-180 0 0.02\n-10 -1 0.04\n0 0 0.01\n10 1 0.04\n90 0 2\n180 0 0.02\nreynolds 1e6\n-180 0 0.02\n-10 -1 0.04\n0 0 0.01\n10 1 0.04\n90 0 2\n180 0 0.02\n";
+        let airfoil = polar::parse(text, "test").unwrap();
+        let model = SectionModel {
+            lift: Lift::Table,
+            compressibility: Compressibility::None,
+            drag_reynolds_exponent: 0.2,
+        };
+        let slope = |reynolds: f64, change: f64| {
+            let flow = Similarity {
+                reynolds: Dual64::new(reynolds, change),
+                mach: Dual64::from_re(0.0),
+            };
+            airfoil
+                .drag_coefficient(&model, Dual64::from_re(0.0), flow)
+                .eps
+        };
+        let law = |reynolds: f64, change: f64| -0.2 * 0.01 / reynolds * change;
+        assert!((slope(1e5, -1.0) / law(1e5, -1.0) - 1.0).abs() < 1e-12);
+        assert!((slope(1e6, 1.0) / law(1e6, 1.0) - 1.0).abs() < 1e-12);
+        // Inside, both tables are alike.
+        assert_eq!((slope(1e5, 1.0), slope(1e6, -1.0)), (0.0, 0.0));
     }
 }

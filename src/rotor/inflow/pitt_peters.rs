@@ -128,6 +128,7 @@ impl Stream {
 #[allow(clippy::disallowed_methods)] // the expectations are independent of libm
 mod tests {
     use super::*;
+    use num_dual::Dual64;
 
     fn stream(edgewise: f64, climb: f64, radius: f64) -> Stream {
         Stream {
@@ -209,5 +210,33 @@ mod tests {
             (constant / expected - 1.0).abs() < 1e-6,
             "{constant} {expected}"
         );
+    }
+
+    /// In still air a wake that begins carries a slope away by V L^-1 = |dv|, to either side.
+    #[test]
+    fn a_wake_that_begins_takes_the_slopes_with_it() {
+        let still = Dual64::from_re(0.0);
+        let stream = Stream {
+            edgewise: still,
+            climb: still,
+            radius: 2.0,
+            descent: Descent::Measured,
+        };
+        let loading = Loading {
+            thrust: still,
+            cosine: still,
+            sine: still,
+        };
+        for change in [1.5, -1.5] {
+            let field = Field {
+                mean: Dual64::new(0.0, change),
+                cosine: Dual64::from_re(0.4),
+                sine: still,
+            };
+            let rate = stream.rate(&field, &loading).cosine;
+            let expected = -1.5 * 0.4 / (APPARENT_INERTIA * 2.0);
+            assert_eq!(rate.re, 0.0);
+            assert!((rate.eps / expected - 1.0).abs() < 1e-12, "{rate}");
+        }
     }
 }
