@@ -64,18 +64,21 @@ pub fn model_description(table: &Table, version: &str, guid: &str) -> io::Result
     Ok(bytes)
 }
 
+/// The flags that both interfaces have, with the same values.
+const FLAGS: [(&str, &str); 6] = [
+    ("needsExecutionTool", "false"),
+    ("canBeInstantiatedOnlyOncePerProcess", "false"),
+    ("canNotUseMemoryManagementFunctions", "true"),
+    ("canGetAndSetFMUstate", "true"),
+    ("canSerializeFMUstate", "true"),
+    ("providesDirectionalDerivative", "true"),
+];
+
 fn model_exchange(xml: &mut Xml, table: &Table) -> io::Result<()> {
     xml.create_element("ModelExchange")
-        .with_attributes([
-            ("modelIdentifier", table.model.model_name.as_str()),
-            ("needsExecutionTool", "false"),
-            ("completedIntegratorStepNotNeeded", "false"),
-            ("canBeInstantiatedOnlyOncePerProcess", "false"),
-            ("canNotUseMemoryManagementFunctions", "true"),
-            ("canGetAndSetFMUstate", "true"),
-            ("canSerializeFMUstate", "true"),
-            ("providesDirectionalDerivative", "true"),
-        ])
+        .with_attribute(("modelIdentifier", table.model.model_name.as_str()))
+        .with_attribute(("completedIntegratorStepNotNeeded", "false"))
+        .with_attributes(FLAGS)
         .write_empty()?;
     Ok(())
 }
@@ -84,17 +87,12 @@ fn co_simulation(xml: &mut Xml, table: &Table) -> io::Result<()> {
     xml.create_element("CoSimulation")
         .with_attributes([
             ("modelIdentifier", table.model.model_name.as_str()),
-            ("needsExecutionTool", "false"),
             ("canHandleVariableCommunicationStepSize", "true"),
             ("canInterpolateInputs", "true"),
             ("maxOutputDerivativeOrder", "1"),
             ("canRunAsynchronuously", "false"),
-            ("canBeInstantiatedOnlyOncePerProcess", "false"),
-            ("canNotUseMemoryManagementFunctions", "true"),
-            ("canGetAndSetFMUstate", "true"),
-            ("canSerializeFMUstate", "true"),
-            ("providesDirectionalDerivative", "true"),
         ])
+        .with_attributes(FLAGS)
         .write_empty()?;
     Ok(())
 }

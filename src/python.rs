@@ -68,9 +68,17 @@ pub fn environment(target: &Path) -> Result<PathBuf, Failure> {
     Ok(interpreter)
 }
 
-/// Runs a script, whose words go to the terminal.
-pub fn run(command: &mut Command, script: &Path) -> Result<(), Failure> {
+/// Runs a script that flies an FMU and writes into a folder; its words go to the terminal.
+pub fn run(target: &Path, script: &Path, fmu: &Path, out: &Path) -> Result<(), Failure> {
+    let interpreter =
+        environment(target).map_err(failed("the .fmu is made, but it cannot be flown here"))?;
+    let mut command = Command::new(interpreter);
     let status = command
+        .arg(script)
+        .arg("--fmu")
+        .arg(fmu)
+        .arg("--out")
+        .arg(out)
         .status()
         .map_err(failed(format!("cannot run {}", script.display())))?;
     if status.success() {
