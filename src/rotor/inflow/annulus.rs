@@ -301,7 +301,7 @@ fn root(start: End, pitch: f64, equation: impl Fn(f64) -> f64) -> Result<f64, Ro
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::rotor::{
         airfoil::{Airfoil, Lift, SectionModel, Similarity},
@@ -321,13 +321,14 @@ mod tests {
         drag_reynolds_exponent: 0.2,
     };
 
-    fn airfoil() -> Airfoil {
+    pub fn airfoil() -> Airfoil {
         let folder =
             Path::new(env!("CARGO_MANIFEST_DIR")).join("modelDescription/resources/airfoils");
         Airfoil::read(&folder.join("naca0015.polar")).unwrap()
     }
 
-    fn element<S: Scalar>(airfoil: &Airfoil, chord: f64, pitch: S) -> Element<'_, S> {
+    /// An element at 0.8 R of three blades with Prandtl's tip loss.
+    pub fn element<S: Scalar>(airfoil: &Airfoil, chord: f64, pitch: S) -> Element<'_, S> {
         Element {
             blades: 3.0,
             radius: 0.8,

@@ -97,3 +97,49 @@ pub fn solve<S: Scalar>(
         mean_axial: share * axial,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{
+        super::annulus::tests::{airfoil, element},
+        *,
+    };
+
+    /// The air that passes a blade which is turned up changes its sign while the blade flaps: nothing jumps then,
+    /// neither in the momentum nor in Prandtl's F.
+    #[test]
+    fn nothing_jumps_where_the_flow_through_a_flapped_blade_changes_its_sign() {
+        let airfoil = airfoil();
+        let element = element(&airfoil, 0.1, 0.15);
+        let (flap_sin, flap_cos) = (0.3, libm::sqrt(1.0 - 0.09));
+        let flow = DiscFlow {
+            rotation: 100.0,
+            speed: 100.0,
+            ..DiscFlow::default()
+        };
+        let at = |through: f64| {
+            let meets = Encounter {
+                pitch: 0.0,
+                in_plane: 80.0,
+                through,
+                flap_sin,
+                flap_cos,
+                outboard: 0.8,
+                out: 0.8 * flap_cos,
+                up: 0.8 * flap_sin,
+            };
+            let answer = solve(
+                &element,
+                &meets,
+                &flow,
+                Descent::Measured,
+                Ground::default(),
+            );
+            answer.unwrap()
+        };
+        let (up, down) = (at(-1e-9), at(1e-9));
+        assert!(up.induced.axial > 1.0);
+        assert!((up.induced.axial - down.induced.axial).abs() < 1e-7);
+        assert!((up.mean_axial - down.mean_axial).abs() < 1e-7);
+    }
+}
