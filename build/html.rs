@@ -39,12 +39,12 @@ pub fn variables(table: &Table) -> String {
     }
     html += "<h3>Choices</h3>\n<table>\n<tr><th>Type</th><th>Choice</th><th>Value</th><th>Meaning</th></tr>\n";
     for enumeration in &table.enumerations {
-        for (i, item) in enumeration.items.iter().enumerate() {
+        for item in &enumeration.items {
             html += &format!(
                 "<tr><td>{}</td><td><code>{}</code></td><td>{}</td><td>{}</td></tr>\n",
                 enumeration.name,
                 item.name,
-                i + 1,
+                item.value,
                 escape(&item.description)
             );
         }

@@ -83,9 +83,9 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
         writeln!(out, "/// {}", enumeration.description)?;
         writeln!(out, "#[derive(Clone, Copy, Debug, PartialEq, Eq)]")?;
         writeln!(out, "pub enum {} {{", enumeration.name)?;
-        for (i, item) in enumeration.items.iter().enumerate() {
+        for item in &enumeration.items {
             writeln!(out, "    /// {}", item.description)?;
-            writeln!(out, "    {} = {},", camel(&item.name), i + 1)?;
+            writeln!(out, "    {} = {},", camel(&item.name), item.value)?;
         }
         writeln!(out, "}}")?;
         writeln!(out, "impl {} {{", enumeration.name)?;
@@ -98,11 +98,11 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
             "    pub fn from_integer(value: i32) -> Option<Self> {{"
         )?;
         writeln!(out, "        match value {{")?;
-        for (i, item) in enumeration.items.iter().enumerate() {
+        for item in &enumeration.items {
             writeln!(
                 out,
                 "            {} => Some(Self::{}),",
-                i + 1,
+                item.value,
                 camel(&item.name)
             )?;
         }
@@ -142,7 +142,7 @@ fn row(table: &Table, v: &Variable) -> String {
         Base::Integer => {
             let enumeration = table.enumeration(&v.kind);
             let start = match table.enumeration_start(v) {
-                Some(item) => item as i64,
+                Some(value) => i64::from(value),
                 // A computed enumeration is one of its items before it is computed, too.
                 None if enumeration.is_some() => 1,
                 None => v.start.as_ref().and_then(|s| s.as_integer()).unwrap_or(0),

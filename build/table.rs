@@ -55,6 +55,8 @@ pub struct Enumeration {
 #[serde(deny_unknown_fields)]
 pub struct Item {
     pub name: String,
+    /// The integer that FMI passes for it.
+    pub value: i32,
     pub description: String,
 }
 
@@ -144,6 +146,16 @@ impl Table {
             return Err(format!("{variables}: the Real inputs must come first").into());
         }
         drop(reals);
+        for enumeration in &table.enumerations {
+            let numbers = enumeration.items.iter().map(|item| item.value);
+            if !numbers.eq(1..=enumeration.items.len() as i32) {
+                return Err(format!(
+                    "{variables}: the items of {} must carry the numbers 1, 2, 3 ... in this order",
+                    enumeration.name
+                )
+                .into());
+            }
+        }
         for variable in &table.variables {
             table
                 .check(variable)
@@ -216,11 +228,11 @@ impl Table {
             .map(|i| i + 1)
     }
 
-    /// The integer behind an enumeration's start value (items count from 1).
-    pub fn enumeration_start(&self, variable: &Variable) -> Option<usize> {
+    /// The integer behind an enumeration's start value.
+    pub fn enumeration_start(&self, variable: &Variable) -> Option<i32> {
         let name = variable.start.as_ref()?.as_str()?;
         let items = &self.enumeration(&variable.kind)?.items;
-        items.iter().position(|i| i.name == name).map(|i| i + 1)
+        items.iter().find(|i| i.name == name).map(|i| i.value)
     }
 
     /// The parameters, or those of one group (the part of the name before the dot).

@@ -142,10 +142,10 @@ fn types(xml: &mut Xml, table: &Table) -> io::Result<()> {
                     .write_inner_content(|xml| {
                         xml.create_element("Enumeration")
                             .write_inner_content(|xml| {
-                                for (i, item) in enumeration.items.iter().enumerate() {
+                                for item in &enumeration.items {
                                     xml.create_element("Item")
                                         .with_attribute(("name", item.name.as_str()))
-                                        .with_attribute(("value", (i + 1).to_string().as_str()))
+                                        .with_attribute(("value", item.value.to_string().as_str()))
                                         .with_attribute(("description", item.description.as_str()))
                                         .write_empty()?;
                                 }

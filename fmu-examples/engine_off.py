@@ -1,6 +1,6 @@
 """Flies a light helicopter from hover through an engine failure to the ground, in vertical autorotation.
 
-The rotor is the FMU, turned by a torque and not at an imposed speed (driveMode = torque). Around it are, in
+The rotor is the FMU, turned by a torque and not at an imposed speed (drive.mode = torque). Around it are, in
 this script, an engine with a governor, a point mass that moves up and down, and a pilot. Straight
 down is the hardest case: there is no forward speed to trade for rotor speed in a flare, so that all that
 cushions the landing is the energy in the rotor.
@@ -42,14 +42,14 @@ PARAMETERS = {
     "geometry.chord": CHORD,
     # The reserve in thrust is bounded by stall: section data at the blades' Reynolds number, 3 million.
     "airfoil.file": "airfoils/naca0015.polar",
-    "air.model": "constant",
+    "air.atmosphere": "userDefined",
     "air.density": DENSITY,
     # Inflow takes time to build up, some tenths of a second: a quick pull of the pitch gives more thrust.
-    "model.inflow": "pittPetersDynamic",
-    "model.descent": "measured",
-    "model.groundEffect": "cheesemanBennett",
-    "driveMode": "torque",
-    "driveInertia": INERTIA,
+    "models.inflow": "pittPetersDynamic",
+    "models.descent": "measured",
+    "models.groundEffect": "cheesemanBennett",
+    "drive.mode": "torque",
+    "drive.inertia": INERTIA,
 }
 
 WEIGHT = MASS * GRAVITY  # N

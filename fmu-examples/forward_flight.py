@@ -80,7 +80,7 @@ class Rotor:
             instanceName=model,
         )
         self.slave.instantiate()
-        self.slave.setInteger([self.reference["model.inflow"]], [number])
+        self.slave.setInteger([self.reference["models.inflow"]], [number])
         self.slave.setBoolean([self.reference["flapping.enabled"]], [True])
         parameters = [self.reference["flapping.inertia"], self.reference["numerics.azimuthStep"]]
         self.slave.setReal(parameters, [INERTIA, AZIMUTH_STEP])

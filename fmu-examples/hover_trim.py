@@ -38,7 +38,7 @@ SPEED = 960.0 * math.pi / 30.0  # rad/s
 DENSITY = 1.225  # kg/m3
 WEIGHT = 60.0  # N
 PARAMETERS = {
-    "model.inflow": "pittPetersDynamic",
+    "models.inflow": "pittPetersDynamic",
     "flapping.enabled": True,
     "flapping.hingeOffset": 0.05,
     # A Lock number rho a c R^4/I of 8.
@@ -210,10 +210,10 @@ def fly(unzipped, description, inputs, step):
 def hover_in_still_air(unzipped, description):
     """Eigenvalues of the inflow over rigid blades with a lift slope of 2 pi, those of theory, and the Newton steps."""
     parameters = {
-        "model.inflow": "pittPetersDynamic",
-        "model.lift": "twoPi",
-        "model.tipLoss": "none",
-        "model.compressibility": "none",
+        "models.inflow": "pittPetersDynamic",
+        "models.lift": "twoPi",
+        "models.tipLoss": "none",
+        "models.compressibility": "none",
     }
     rotor = Rotor(unzipped, description, parameters)
     _, residuals = trim(rotor, {"force[3]": WEIGHT}, {"collective": ROUGH["collective"]})

@@ -27,8 +27,8 @@ MEASURED = Path(__file__).parent / "data" / "knight-hefner-1937-tn626-hover.csv"
 
 # The report gives 960 rpm and a tip Reynolds number of 242,000, which is that of air at 30 degrees
 # Celsius and sea-level pressure (the FMU's tipReynolds comes out at 243,000).
-AIR_CONSTANT = 2  # the choice `constant` of the enumeration air.model
-CONDITIONS = {"air.model": AIR_CONSTANT, "air.density": 1.164, "air.temperature": 303.15}
+USER_DEFINED_AIR = 2  # the choice `userDefined` of the enumeration air.atmosphere
+CONDITIONS = {"air.atmosphere": USER_DEFINED_AIR, "air.density": 1.164, "air.temperature": 303.15}
 RPM = 960.0
 
 COMPARED_FROM = 4.0  # deg; below, measured thrust is too small for differences in per cent

@@ -39,7 +39,7 @@ INTERVAL = 0.005  # s
 MANOEUVRES = {
     "hover": (
         2.0,
-        {"model.inflow": "pittPetersDynamic"},
+        {"models.inflow": "pittPetersDynamic"},
         {"collective": (math.radians(8.0), math.radians(10.0))},
         ["thrust", "torque", "inducedVelocity"],
         "o",
@@ -47,7 +47,7 @@ MANOEUVRES = {
     "forward flight": (
         0.4,
         {
-            "model.inflow": "pittPetersDynamic",
+            "models.inflow": "pittPetersDynamic",
             "flapping.enabled": True,
             "flapping.hingeOffset": 0.04,
             "velocity[1]": 15.0,
@@ -59,7 +59,7 @@ MANOEUVRES = {
     ),
     "run-down": (
         2.0,
-        {"driveMode": "torque", "driveInertia": 0.25, "model.inflow": "pittPetersDynamic"},
+        {"drive.mode": "torque", "drive.inertia": 0.25, "models.inflow": "pittPetersDynamic"},
         {"driveTorque": (4.23, 0.0)},
         ["thrust", "torque", "rotorSpeed"],
         "^",

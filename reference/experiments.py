@@ -46,7 +46,7 @@ FORWARD = Experiment(
     step=0.004,
     interval=0.04,
     parameters={
-        "model.inflow": "pittPetersDynamic",
+        "models.inflow": "pittPetersDynamic",
         "flapping.enabled": True,
         "flapping.hingeOffset": 0.04,
         "flapping.inertia": 0.03,
@@ -79,8 +79,8 @@ DESCENT = Experiment(
     interval=0.08,
     parameters={
         "geometry.file": "rotors/castles-gray-6ft.toml",
-        "model.inflow": "uniform",
-        "model.descent": "measured",
+        "models.inflow": "uniform",
+        "models.descent": "measured",
     },
     inputs={
         "collective": [(0.4, deg(5.0)), (2.4, deg(4.0))],
@@ -103,9 +103,9 @@ AUTOROTATION = Experiment(
     step=0.0125,
     interval=0.1,
     parameters={
-        "model.inflow": "pittPetersDynamic",
-        "driveMode": "torque",
-        "driveInertia": 0.25,
+        "models.inflow": "pittPetersDynamic",
+        "drive.mode": "torque",
+        "drive.inertia": 0.25,
     },
     inputs={
         "collective": [(0.4, deg(8.0)), (2.6, deg(3.0))],

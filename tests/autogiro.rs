@@ -29,9 +29,9 @@ fn fly(rotor: &str, mu: f64, rpm: f64, alpha: f64) -> (f64, f64) {
     block
         .set_strings(&[string::GEOMETRY__FILE as u32], &[rotor])
         .unwrap();
-    choose(&mut block, integer::MODEL__INFLOW, "pittPetersDynamic");
-    choose(&mut block, integer::MODEL__TIP_LOSS, "wheatley");
-    choose(&mut block, integer::AIR__MODEL, "constant");
+    choose(&mut block, integer::MODELS__INFLOW, "pittPetersDynamic");
+    choose(&mut block, integer::MODELS__TIP_LOSS, "wheatley");
+    choose(&mut block, integer::AIR__ATMOSPHERE, "userDefined");
     block
         .set_integers(&[integer::NUMERICS__ELEMENTS as u32], &[20])
         .unwrap();

@@ -110,7 +110,7 @@ fn thrust_in_hover_lies_on_the_line_between_slow_climb_and_slow_descent() {
             let at = |climb: f64| {
                 let reals = [(real::COLLECTIVE, collective), (real::VELOCITY_3, climb)];
                 output(
-                    &computed(&reals, &[(integer::MODEL__INFLOW, inflow)]),
+                    &computed(&reals, &[(integer::MODELS__INFLOW, inflow)]),
                     real::THRUST,
                 )
             };
@@ -159,7 +159,7 @@ fn pitch_of_the_other_sign_mirrors_the_thrust_and_keeps_the_torque() {
         let at = |pitch| {
             computed(
                 &[(real::COLLECTIVE, pitch)],
-                &[(integer::MODEL__INFLOW, inflow)],
+                &[(integer::MODELS__INFLOW, inflow)],
             )
         };
         let (up, down) = (at(0.15), at(-0.15));
@@ -245,7 +245,7 @@ fn the_annulus_tends_to_the_closed_form_for_small_angles() {
 /// to the extent that the inflow is uniform; blades of constant chord and pitch are close.
 #[test]
 fn induced_velocity_in_hover_is_near_that_of_the_actuator_disc() {
-    let block = computed(&[], &[(integer::MODEL__TIP_LOSS, 1)]);
+    let block = computed(&[], &[(integer::MODELS__TIP_LOSS, 1)]);
     let area = PI * 0.762 * 0.762 * (1.0 - 1.0 / 36.0);
     let disc = (output(&block, real::THRUST) / (2.0 * 1.225 * area)).sqrt();
     let ratio = output(&block, real::INDUCED_VELOCITY) / disc;
@@ -329,7 +329,7 @@ fn more_elements_change_the_third_digit_at_most() {
         let ct = |elements| {
             let models = [
                 (integer::NUMERICS__ELEMENTS, elements),
-                (integer::MODEL__INFLOW, inflow),
+                (integer::MODELS__INFLOW, inflow),
             ];
             output(&computed(&[], &models), real::THRUST_COEFFICIENT)
         };
@@ -351,10 +351,10 @@ fn every_model_is_finite_in_every_direction_of_flow_and_pitch() {
     for models in (0..9 * 2 * 3 * 4).map(|i| [1 + i % 9, 1 + i / 9 % 2, 1 + i / 18 % 3, 1 + i / 54])
     {
         let places = [
-            integer::MODEL__INFLOW,
-            integer::MODEL__LIFT,
-            integer::MODEL__TIP_LOSS,
-            integer::MODEL__COMPRESSIBILITY,
+            integer::MODELS__INFLOW,
+            integer::MODELS__LIFT,
+            integer::MODELS__TIP_LOSS,
+            integer::MODELS__COMPRESSIBILITY,
         ];
         block
             .set_integers(&places.map(|p| p as u32), &models)

@@ -212,8 +212,8 @@ fn flapping_block(inflow: &str) -> RotorBlock {
     let mut block = default_block();
     block
         .set_integers(
-            &[integer::MODEL__INFLOW as u32],
-            &[choice(integer::MODEL__INFLOW, inflow)],
+            &[integer::MODELS__INFLOW as u32],
+            &[choice(integer::MODELS__INFLOW, inflow)],
         )
         .unwrap();
     block
@@ -273,13 +273,13 @@ fn the_communication_step_does_not_change_the_motion_of_the_blades() {
 /// The integrator's order shows on smooth sections: thin-airfoil lift.
 #[test]
 fn the_motion_of_the_blades_is_of_third_order_in_the_azimuth_step() {
-    let lift = choice(integer::MODEL__LIFT, "twoPi");
+    let lift = choice(integer::MODELS__LIFT, "twoPi");
     let after = |degrees: f64| {
         let mut block = flapping_block("pittPetersDynamic");
         let places = [
-            integer::MODEL__LIFT,
+            integer::MODELS__LIFT,
             integer::INITIALIZATION,
-            integer::MODEL__TIP_LOSS,
+            integer::MODELS__TIP_LOSS,
         ];
         let rest = choice(integer::INITIALIZATION, "rest");
         block
@@ -313,17 +313,17 @@ fn flapping_with_models_that_cannot_flap_is_refused_with_the_remedy() {
         block.start().unwrap_err().to_string()
     };
     let disc = refused(
-        integer::MODEL__BLADES,
-        choice(integer::MODEL__BLADES, "disc"),
+        integer::MODELS__BLADES,
+        choice(integer::MODELS__BLADES, "disc"),
     );
     assert!(
-        disc.contains("set model.blades to automatic or individual"),
+        disc.contains("set models.blades to automatic or individual"),
         "{disc}"
     );
     let many = refused(integer::GEOMETRY__NUMBER_OF_BLADES, 9);
     assert!(many.contains("at most 8 can flap"), "{many}");
-    let closed = choice(integer::MODEL__INFLOW, "annulusClosedForm");
-    let closed = refused(integer::MODEL__INFLOW, closed);
+    let closed = choice(integer::MODELS__INFLOW, "annulusClosedForm");
+    let closed = refused(integer::MODELS__INFLOW, closed);
     assert!(closed.contains("set another inflow model"), "{closed}");
 }
 

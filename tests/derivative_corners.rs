@@ -46,24 +46,24 @@ fn random_block(random: &mut Random) -> RotorBlock {
         .set_integers(&[integer::NUMERICS__ELEMENTS as u32], &[12])
         .unwrap();
     for place in [
-        integer::MODEL__INFLOW,
-        integer::MODEL__DESCENT,
-        integer::MODEL__TIP_LOSS,
-        integer::MODEL__BLADES,
-        integer::MODEL__COMPRESSIBILITY,
-        integer::MODEL__GROUND_EFFECT,
-        integer::DRIVE_MODE,
+        integer::MODELS__INFLOW,
+        integer::MODELS__DESCENT,
+        integer::MODELS__TIP_LOSS,
+        integer::MODELS__BLADES,
+        integer::MODELS__COMPRESSIBILITY,
+        integer::MODELS__GROUND_EFFECT,
+        integer::DRIVE__MODE,
         integer::GEOMETRY__ROTATION,
         integer::INITIALIZATION,
-        integer::AIR__MODEL,
+        integer::AIR__ATMOSPHERE,
     ] {
         let choices = INTEGERS[place].choices;
         choose(&mut block, place, choices[random.below(choices.len())]);
     }
-    let is_closed_form = INTEGERS[integer::MODEL__INFLOW].choices[0] == "annulusClosedForm"
-        && block.values().integers[integer::MODEL__INFLOW] == 1;
+    let is_closed_form = INTEGERS[integer::MODELS__INFLOW].choices[0] == "annulusClosedForm"
+        && block.values().integers[integer::MODELS__INFLOW] == 1;
     if is_closed_form {
-        choose(&mut block, integer::MODEL__GROUND_EFFECT, "none");
+        choose(&mut block, integer::MODELS__GROUND_EFFECT, "none");
     }
     let (blades, order) = (1 + random.below(8) as i32, 1 + random.below(6) as i32);
     let places = [
@@ -74,13 +74,13 @@ fn random_block(random: &mut Random) -> RotorBlock {
     if !is_closed_form && random.one_in(3) {
         let enabled = boolean::FLAPPING__ENABLED as u32;
         block.set_booleans(&[enabled], &[1]).unwrap();
-        choose(&mut block, integer::MODEL__BLADES, "automatic");
+        choose(&mut block, integer::MODELS__BLADES, "automatic");
         set(&mut block, real::FLAPPING__HINGE_OFFSET, 0.05);
         set(&mut block, real::FLAPPING__DELTA3, 0.2);
         set(&mut block, real::FLAPPING__HINGE_SPRING, 5.0);
     } else if blades == 1 {
         // One blade and the mean over its turn are different rotors: automatic jumps between them.
-        choose(&mut block, integer::MODEL__BLADES, "individual");
+        choose(&mut block, integer::MODELS__BLADES, "individual");
     }
     match random.below(4) {
         0 => {
@@ -88,9 +88,9 @@ fn random_block(random: &mut Random) -> RotorBlock {
             let file = file.to_str().unwrap();
             let airfoil = string::AIRFOIL__FILE as u32;
             block.set_strings(&[airfoil], &[file]).unwrap();
-            choose(&mut block, integer::MODEL__LIFT, "thesisSlope");
+            choose(&mut block, integer::MODELS__LIFT, "slopesByReynolds");
         }
-        1 => choose(&mut block, integer::MODEL__LIFT, "twoPi"),
+        1 => choose(&mut block, integer::MODELS__LIFT, "twoPi"),
         _ => {}
     }
     random_flight(&mut block, random);
@@ -103,11 +103,11 @@ fn random_flight(block: &mut RotorBlock, random: &mut Random) {
         // A knot of the section's tables all along the blade, exactly: without inflow before the first step.
         set(block, real::COLLECTIVE, 0.0);
         choose(block, integer::INITIALIZATION, "rest");
-        if block.values().integers[integer::MODEL__TIP_LOSS]
-            == support::block::choice(integer::MODEL__TIP_LOSS, "prandtlThrust")
+        if block.values().integers[integer::MODELS__TIP_LOSS]
+            == support::block::choice(integer::MODELS__TIP_LOSS, "prandtlThrust")
         {
             // Its lift ends at a root of the thrust, whose slope is infinite where there is none.
-            choose(block, integer::MODEL__TIP_LOSS, "prandtl");
+            choose(block, integer::MODELS__TIP_LOSS, "prandtl");
         }
     } else if random.one_in(2) {
         set(block, real::COLLECTIVE, random.between(-0.1, 0.3));
@@ -240,8 +240,8 @@ fn derivatives_at_known_corners() {
     // No lift in climb and descent: the closed form is mirrored there, and its slope is that at the Mach number.
     for climb in [0.0, 2.0, -2.0] {
         let mut block = default_block();
-        choose(&mut block, integer::MODEL__INFLOW, "annulusClosedForm");
-        choose(&mut block, integer::MODEL__LIFT, "twoPi");
+        choose(&mut block, integer::MODELS__INFLOW, "annulusClosedForm");
+        choose(&mut block, integer::MODELS__LIFT, "twoPi");
         set(&mut block, real::RPM, 2500.0);
         set(&mut block, real::COLLECTIVE, 0.0);
         set(&mut block, real::VELOCITY_3, climb);
@@ -251,7 +251,7 @@ fn derivatives_at_known_corners() {
 
     // A stopped rotor in wind along the disc: half of it meets the air from behind, at 180 deg exactly.
     let mut block = default_block();
-    choose(&mut block, integer::MODEL__INFLOW, "uniform");
+    choose(&mut block, integer::MODELS__INFLOW, "uniform");
     set(&mut block, real::COLLECTIVE, 0.0);
     set(&mut block, real::RPM, 0.0);
     set(&mut block, real::VELOCITY_1, 10.0);

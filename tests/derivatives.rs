@@ -52,7 +52,7 @@ const FLIGHTS: [Flight; 6] = [
         step: 1e-4,
         bound: 1e-7,
         settings: |block| {
-            choose(block, integer::DRIVE_MODE, "torque");
+            choose(block, integer::DRIVE__MODE, "torque");
             set(block, real::DRIVE_TORQUE, 3.0);
         },
     },
@@ -72,7 +72,7 @@ const FLIGHTS: [Flight; 6] = [
         // Differences have errors of their own there: the curve's curvature jumps from piece to piece, and for
         // dynamic inflow the mass flow's slope is a difference, with its rounding.
         bound: 1e-6,
-        settings: |block| choose(block, integer::MODEL__DESCENT, "johnson"),
+        settings: |block| choose(block, integer::MODELS__DESCENT, "johnson"),
     },
     Flight {
         name: "near the ground",
@@ -81,8 +81,8 @@ const FLIGHTS: [Flight; 6] = [
         step: 1e-4,
         bound: 1e-7,
         settings: |block| {
-            if block.values().integers[integer::MODEL__INFLOW] != 1 {
-                choose(block, integer::MODEL__GROUND_EFFECT, "cheesemanBennett");
+            if block.values().integers[integer::MODELS__INFLOW] != 1 {
+                choose(block, integer::MODELS__GROUND_EFFECT, "cheesemanBennett");
             }
             set(block, real::HEIGHT_ABOVE_GROUND, 1.9);
         },
@@ -95,7 +95,7 @@ const FLIGHTS: [Flight; 6] = [
         bound: 1e-7,
         settings: |block| {
             choose(block, integer::GEOMETRY__ROTATION, "clockwise");
-            choose(block, integer::MODEL__TIP_LOSS, "prandtlTipAndRoot");
+            choose(block, integer::MODELS__TIP_LOSS, "prandtlTipAndRoot");
             for (place, value) in [
                 (real::CYCLIC_LATERAL, 0.03),
                 (real::CYCLIC_LONGITUDINAL, 0.02),
@@ -121,20 +121,20 @@ fn smooth_block(inflow: &str, blades: &str, flight: &Flight) -> RotorBlock {
     block
         .set_strings(&[string::AIRFOIL__FILE as u32], &[file])
         .unwrap();
-    choose(&mut block, integer::MODEL__LIFT, "thesisSlope");
+    choose(&mut block, integer::MODELS__LIFT, "slopesByReynolds");
     into_flight(&mut block, inflow, blades, flight);
     block
 }
 
 fn into_flight(block: &mut RotorBlock, inflow: &str, blades: &str, flight: &Flight) {
-    choose(block, integer::MODEL__INFLOW, inflow);
+    choose(block, integer::MODELS__INFLOW, inflow);
     if blades == "flapping" {
         let enabled = boolean::FLAPPING__ENABLED as u32;
         block.set_booleans(&[enabled], &[1]).unwrap();
         set(block, real::FLAPPING__HINGE_OFFSET, 0.05);
         set(block, real::FLAPPING__DELTA3, 0.2);
     } else {
-        choose(block, integer::MODEL__BLADES, blades);
+        choose(block, integer::MODELS__BLADES, blades);
     }
     let places = [real::VELOCITY_1, real::VELOCITY_2, real::VELOCITY_3];
     for (place, value) in places.into_iter().zip(flight.velocity) {
@@ -225,7 +225,7 @@ fn worst(
 
 /// All inflow models with every way to hold the blades.
 fn models() -> impl Iterator<Item = (&'static str, &'static str)> {
-    let inflows = INTEGERS[integer::MODEL__INFLOW].choices.iter();
+    let inflows = INTEGERS[integer::MODELS__INFLOW].choices.iter();
     let all = inflows.flat_map(|inflow| BLADES.map(|blades| (*inflow, blades)));
     all.filter(|case| *case != ("annulusClosedForm", "flapping"))
 }
@@ -253,7 +253,7 @@ fn derivatives_by_tunable_parameters_are_those_of_differences() {
     assert_eq!(knowns.len(), 3, "spring, density, temperature");
     for (inflow, blades) in models() {
         let mut block = smooth_block(inflow, blades, &FLIGHTS[5]);
-        choose(&mut block, integer::AIR__MODEL, "constant");
+        choose(&mut block, integer::AIR__ATMOSPHERE, "userDefined");
         set(&mut block, real::FLAPPING__HINGE_SPRING, 5.0);
         block.start().unwrap();
         block.step(0.003).unwrap();

@@ -16,9 +16,9 @@ use support::{choose, default_block, set};
 fn block(inflow: &str, descent: &str) -> RotorBlock {
     let mut block = default_block();
     let pairs = [
-        (integer::MODEL__INFLOW, inflow),
-        (integer::MODEL__DESCENT, descent),
-        (integer::MODEL__BLADES, "disc"),
+        (integer::MODELS__INFLOW, inflow),
+        (integer::MODELS__DESCENT, descent),
+        (integer::MODELS__BLADES, "disc"),
     ];
     for (place, name) in pairs {
         choose(&mut block, place, name);

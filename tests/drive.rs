@@ -24,14 +24,14 @@ fn block(choices: &[(usize, &str)], values: &[(usize, f64)]) -> RotorBlock {
     block
 }
 
-const TORQUE: (usize, &str) = (integer::DRIVE_MODE, "torque");
+const TORQUE: (usize, &str) = (integer::DRIVE__MODE, "torque");
 const SPEED: f64 = 960.0 * PI / 30.0;
 
 /// The torque that the rotor absorbs at its speed keeps it there.
 #[test]
 fn the_torque_that_the_rotor_absorbs_keeps_its_speed() {
     for inflow in ["annulus", "drees", "pittPetersDynamic"] {
-        let model = (integer::MODEL__INFLOW, inflow);
+        let model = (integer::MODELS__INFLOW, inflow);
         let mut imposed = block(&[model], &[]);
         imposed.start().unwrap();
         let torque = get(&imposed, real::TORQUE);
@@ -54,10 +54,10 @@ fn the_torque_that_the_rotor_absorbs_keeps_its_speed() {
 #[test]
 fn torque_accelerates_the_inertia() {
     let mut rotor = block(
-        &[TORQUE, (integer::AIR__MODEL, "constant")],
+        &[TORQUE, (integer::AIR__ATMOSPHERE, "userDefined")],
         &[
             (real::AIR__DENSITY, 1e-6),
-            (real::DRIVE_INERTIA, 2.5),
+            (real::DRIVE__INERTIA, 2.5),
             (real::DRIVE_TORQUE, 50.0),
             (real::RPM, 300.0),
         ],
@@ -81,8 +81,8 @@ fn torque_accelerates_the_inertia() {
 fn the_communication_step_does_not_change_the_running_down() {
     let after = |steps: &[f64]| {
         let mut rotor = block(
-            &[TORQUE, (integer::MODEL__INFLOW, "pittPetersDynamic")],
-            &[(real::DRIVE_INERTIA, 0.1), (real::VELOCITY_1, 5.0)],
+            &[TORQUE, (integer::MODELS__INFLOW, "pittPetersDynamic")],
+            &[(real::DRIVE__INERTIA, 0.1), (real::VELOCITY_1, 5.0)],
         );
         rotor
             .set_booleans(&[boolean::FLAPPING__ENABLED as u32], &[1])
@@ -113,7 +113,7 @@ fn wind_from_below_turns_a_rotor_without_an_engine() {
                 (real::RPM, rpm),
                 (real::VELOCITY_3, -descent),
                 (real::COLLECTIVE, 0.0),
-                (real::DRIVE_INERTIA, 0.05),
+                (real::DRIVE__INERTIA, 0.05),
             ],
         );
         rotor.start().unwrap();
@@ -144,13 +144,13 @@ fn an_autogiro_without_an_engine_turns_as_fast_as_measured() {
         let mut rotor = block(
             &[
                 TORQUE,
-                (integer::MODEL__INFLOW, "pittPetersDynamic"),
-                (integer::MODEL__TIP_LOSS, "wheatley"),
-                (integer::AIR__MODEL, "constant"),
+                (integer::MODELS__INFLOW, "pittPetersDynamic"),
+                (integer::MODELS__TIP_LOSS, "wheatley"),
+                (integer::AIR__ATMOSPHERE, "userDefined"),
             ],
             &[
                 (real::FLAPPING__INERTIA, 452.8),
-                (real::DRIVE_INERTIA, 4.0 * 452.8),
+                (real::DRIVE__INERTIA, 4.0 * 452.8),
                 (real::AIR__DENSITY, 1.0823),
                 (real::COLLECTIVE, 0.0497),
                 (real::RPM, rpm),
@@ -227,9 +227,9 @@ fn thrust_near_the_ground_at_the_same_power() {
     ] {
         let mut rotor = block(
             &[
-                (integer::MODEL__INFLOW, inflow),
-                (integer::MODEL__GROUND_EFFECT, model),
-                (integer::MODEL__LIFT, "twoPi"),
+                (integer::MODELS__INFLOW, inflow),
+                (integer::MODELS__GROUND_EFFECT, model),
+                (integer::MODELS__LIFT, "twoPi"),
             ],
             &[],
         );
@@ -269,10 +269,10 @@ fn thrust_near_the_ground_at_the_same_power() {
 /// Every inflow model gains thrust near the ground, without a jump in height, and hardly in fast flight.
 #[test]
 fn every_inflow_model_feels_the_ground() {
-    for inflow in INTEGERS[integer::MODEL__INFLOW].choices {
-        let model = (integer::MODEL__INFLOW, *inflow);
-        let ground = (integer::MODEL__GROUND_EFFECT, "cheesemanBennett");
-        let mut rotor = block(&[model, ground, (integer::MODEL__BLADES, "disc")], &[]);
+    for inflow in INTEGERS[integer::MODELS__INFLOW].choices {
+        let model = (integer::MODELS__INFLOW, *inflow);
+        let ground = (integer::MODELS__GROUND_EFFECT, "cheesemanBennett");
+        let mut rotor = block(&[model, ground, (integer::MODELS__BLADES, "disc")], &[]);
         if *inflow == "annulusClosedForm" {
             let error = rotor.start().unwrap_err().to_string();
             assert!(error.contains("set another inflow model"), "{error}");

@@ -20,15 +20,15 @@ const REST: i32 = 2;
 fn block(model: &str, initialization: i32) -> RotorBlock {
     let mut block = default_block();
     let places = [
-        integer::MODEL__INFLOW,
-        integer::MODEL__BLADES,
+        integer::MODELS__INFLOW,
+        integer::MODELS__BLADES,
         integer::INITIALIZATION,
     ]
     .map(|p| p as u32);
     block
         .set_integers(
             &places,
-            &[choice(integer::MODEL__INFLOW, model), DISC, initialization],
+            &[choice(integer::MODELS__INFLOW, model), DISC, initialization],
         )
         .unwrap();
     block

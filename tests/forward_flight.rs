@@ -415,14 +415,14 @@ fn every_inflow_model_without_states_is_finite_at_every_advance_climb_pitch_and_
         .set_integers(&[integer::NUMERICS__ELEMENTS as u32], &[8])
         .unwrap();
     let mut count = 0;
-    let choices = INTEGERS[integer::MODEL__INFLOW].choices;
+    let choices = INTEGERS[integer::MODELS__INFLOW].choices;
     for (inflow, name) in (1..).zip(choices) {
         // Those with states have a start to find, which may not be there: tests/sweep.rs.
         if ["pittPetersDynamic", "petersHe"].contains(name) {
             continue;
         }
         block
-            .set_integers(&[integer::MODEL__INFLOW as u32], &[inflow])
+            .set_integers(&[integer::MODELS__INFLOW as u32], &[inflow])
             .unwrap();
         for rpm in [0.0, 1.0, 480.0, 1440.0] {
             set(&mut block, real::RPM, rpm);

@@ -53,7 +53,7 @@ static ALLOCATOR: Counting = Counting;
 
 /// Every inflow model, with rigid and with flapping blades.
 fn rotors() -> Vec<(&'static str, i32)> {
-    let models = INTEGERS[integer::MODEL__INFLOW].choices.iter();
+    let models = INTEGERS[integer::MODELS__INFLOW].choices.iter();
     let all = models.flat_map(|model| [(*model, 0), (*model, 1)]);
     all.filter(|rotor| *rotor != ("annulusClosedForm", 1))
         .collect()
@@ -73,7 +73,7 @@ const OUTPUTS: [u32; 3] = [
 
 /// An initialised instance.
 fn instance(kind: fmi2Enumeration, (model, flaps): (&str, i32)) -> fmi2Component {
-    let choices = INTEGERS[integer::MODEL__INFLOW].choices;
+    let choices = INTEGERS[integer::MODELS__INFLOW].choices;
     let choice = choices.iter().position(|c| *c == model).unwrap() as i32 + 1;
     let name = CString::new("rotor").unwrap();
     let guid = CString::new(GUID).unwrap();
@@ -84,7 +84,7 @@ fn instance(kind: fmi2Enumeration, (model, flaps): (&str, i32)) -> fmi2Component
         let (name, guid, place) = (name.as_ptr(), guid.as_ptr(), resources.as_ptr());
         let c = fmi2Instantiate(name, kind, guid, place, ptr::null(), 0, 0);
         assert!(!c.is_null());
-        let place = integer::MODEL__INFLOW as u32;
+        let place = integer::MODELS__INFLOW as u32;
         assert_eq!(fmi2SetInteger(c, &place, 1, &choice), fmi2Status::fmi2OK);
         let place = boolean::FLAPPING__ENABLED as u32;
         assert_eq!(fmi2SetBoolean(c, &place, 1, &flaps), fmi2Status::fmi2OK);

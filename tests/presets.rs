@@ -207,9 +207,9 @@ fn the_thesis_rotor_hovers_with_the_thesis_lift_slopes() {
         block
             .set_strings(&[string::AIRFOIL__FILE as u32], &["naca0015.txt"])
             .unwrap();
-        let lift = integer::MODEL__LIFT as u32;
+        let lift = integer::MODELS__LIFT as u32;
         block
-            .set_integers(&[lift], &[LiftModel::ThesisSlope as i32])
+            .set_integers(&[lift], &[LiftModel::SlopesByReynolds as i32])
             .unwrap();
         let [slopes, _] = hover(&mut block, collective, 430.5);
         let tip_speed = 430.5 * std::f64::consts::PI / 30.0 * 1.22;

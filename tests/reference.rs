@@ -401,7 +401,7 @@ fn the_cross_check_has_the_experiment_with_defaults() {
     assert!(!read(BESIDE, "README.md").is_empty());
 
     // What the cross-check's repository asks of a submission, as FMPy checks it.
-    let folder = scratch().join("2.0/cs/linux64/HelicopterRotor/0.1.0/HelicopterRotor");
+    let folder = scratch().join("2.0/cs/linux64/HelicopterRotor/0.2.0/HelicopterRotor");
     fs::create_dir_all(&folder).unwrap();
     fs::copy(packaged_fmu(), folder.join("HelicopterRotor.fmu")).unwrap();
     for suffix in ["in.csv", "ref.csv", "ref.opt"] {

@@ -59,13 +59,13 @@ const LEVELS: [usize; 9] = [
 
 /// The choices that shape the solution; those that only shape the sections or the frame are not among them.
 const STRUCTURE: [&str; 8] = [
-    "model.inflow",
-    "model.blades",
+    "models.inflow",
+    "models.blades",
     "flapping.enabled",
-    "model.tipLoss",
-    "model.descent",
-    "model.groundEffect",
-    "driveMode",
+    "models.tipLoss",
+    "models.descent",
+    "models.groundEffect",
+    "drive.mode",
     "initialization",
 ];
 
@@ -241,7 +241,7 @@ impl Sweep {
 
     /// The choices that are combined with every flight; the others have their defaults.
     fn main_choices(&self) -> impl Iterator<Item = &Choice> {
-        let names = ["model.inflow", "flapping.enabled"];
+        let names = ["models.inflow", "flapping.enabled"];
         let is_main = move |c: &&Choice| names.iter().any(|name| c.is(name));
         self.choices.iter().filter(is_main)
     }
@@ -308,9 +308,9 @@ impl Sweep {
     fn expected_refusal(&self, run: &Run) -> bool {
         let has = |name: &str, value: &str| self.has(run, name, value);
         let flaps = has(BOOLEANS[boolean::FLAPPING__ENABLED].name, "true");
-        let closed = has("model.inflow", "annulusClosedForm");
-        flaps && (has("model.blades", "disc") || closed)
-            || closed && !has("model.groundEffect", "none")
+        let closed = has("models.inflow", "annulusClosedForm");
+        flaps && (has("models.blades", "disc") || closed)
+            || closed && !has("models.groundEffect", "none")
     }
 
     fn has(&self, run: &Run, name: &str, value: &str) -> bool {
@@ -324,7 +324,7 @@ impl Sweep {
         for (choice, value) in self.choices.iter().zip(&run.values) {
             choice.set(&mut block, *value);
         }
-        if self.has(run, "model.lift", "thesisSlope") {
+        if self.has(run, "models.lift", "slopesByReynolds") {
             let place = string::AIRFOIL__FILE as u32;
             block.set_strings(&[place], &["naca0015.txt"]).unwrap();
         }
@@ -431,7 +431,7 @@ type Counts = Vec<[usize; 4]>;
 #[test]
 fn every_combination_of_models_is_finite_or_one_clear_error() {
     let sweep = Sweep::new();
-    let inflow = sweep.choices.iter().position(|c| c.is("model.inflow"));
+    let inflow = sweep.choices.iter().position(|c| c.is("models.inflow"));
     let inflow = inflow.unwrap();
     let (combinations, flights) = (sweep.combinations(), sweep.flights());
     let next = AtomicUsize::new(0);

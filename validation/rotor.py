@@ -103,7 +103,7 @@ class Rotor:
         """The physical models of a flight in a line: all of them, also those that are defaults."""
         named = []
         for name, variable in self.variables.items():
-            if not name.startswith("model."):
+            if not name.startswith("models."):
                 continue
             choice = parameters.get(name)
             if choice is None:

@@ -7,7 +7,7 @@ import tempfile
 
 def air(density, temperature):
     """Parameters of air of a density, kg/m3, and temperature, K."""
-    return {"air.model": "constant", "air.density": density, "air.temperature": temperature}
+    return {"air.atmosphere": "userDefined", "air.density": density, "air.temperature": temperature}
 
 
 # Knight & Hefner give 960 rpm and a tip Reynolds number of 242,000: air of 30 degrees Celsius at sea-level pressure.
@@ -56,10 +56,10 @@ THESIS_RADIUS = 1.22
 THESIS_RPM = 55.0 / THESIS_RADIUS * 30.0 / math.pi
 THESIS_PITCHES = (15.3, 16.9)
 THESIS_CHOICES = {
-    "model.inflow": "annulusClosedForm",
-    "model.lift": "thesisSlope",
-    "model.compressibility": "karmanTsien",
-    "model.tipLoss": "prandtl",
+    "models.inflow": "annulusClosedForm",
+    "models.lift": "slopesByReynolds",
+    "models.compressibility": "karmanTsien",
+    "models.tipLoss": "prandtl",
 }
 THESIS = {"geometry.file": "thesis.toml", "airfoil.file": SLOPES, "rpm": THESIS_RPM}
 

@@ -3,7 +3,7 @@
 use super::{
     setup::{self, SetupError},
     values::Values,
-    variables::{AirModel, DriveMode, integer, real},
+    variables::{Atmosphere, DriveMode, integer, real},
 };
 use crate::rotor::{
     Drive, Operation,
@@ -39,11 +39,11 @@ impl<S: Scalar> Flight<S> {
             gravity: shaft.gravity,
             hinge_spring: reals[real::FLAPPING__HINGE_SPRING],
             height: reals[real::HEIGHT_ABOVE_GROUND],
-            drive: match setup::choice(values, integer::DRIVE_MODE, DriveMode::from_integer)? {
+            drive: match setup::choice(values, integer::DRIVE__MODE, DriveMode::from_integer)? {
                 DriveMode::Speed => Drive::Speed,
                 DriveMode::Torque => Drive::Torque {
                     torque: reals[real::DRIVE_TORQUE],
-                    inertia: reals[real::DRIVE_INERTIA].value(),
+                    inertia: reals[real::DRIVE__INERTIA].value(),
                 },
             },
             air: air(values, reals)?,
@@ -99,9 +99,9 @@ impl<S: Scalar> Shaft<S> {
 
 fn air<S: Scalar>(values: &Values, reals: &[S]) -> Result<Air<S>, SetupError> {
     Ok(
-        match setup::choice(values, integer::AIR__MODEL, AirModel::from_integer)? {
-            AirModel::Isa => Air::standard(reals[real::ALTITUDE]),
-            AirModel::Constant => {
+        match setup::choice(values, integer::AIR__ATMOSPHERE, Atmosphere::from_integer)? {
+            Atmosphere::Isa => Air::standard(reals[real::ALTITUDE]),
+            Atmosphere::UserDefined => {
                 Air::new(reals[real::AIR__DENSITY], reals[real::AIR__TEMPERATURE])
             }
         },

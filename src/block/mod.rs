@@ -294,7 +294,7 @@ impl RotorBlock {
         let (fresh, before) = (self.fresh, self.memory.state);
         self.set_reals(&references, states)?;
         // Solvers move each state by itself for their Jacobian; one that does not count leaves what is computed valid.
-        let is_driven = self.values.integers[integer::DRIVE_MODE] == DriveMode::Torque as i32;
+        let is_driven = self.values.integers[integer::DRIVE__MODE] == DriveMode::Torque as i32;
         let is_same = |rotor: &Rotor| {
             rotor.used(is_driven, &before) == rotor.used(is_driven, &self.memory.state)
         };
@@ -458,7 +458,7 @@ mod tests {
             let mut block = RotorBlock::new(RESOURCES.into());
             let inflow = variables::InflowModel::PittPetersDynamic as i32;
             let references =
-                [integer::MODEL__INFLOW, integer::DRIVE_MODE].map(|place| place as u32);
+                [integer::MODELS__INFLOW, integer::DRIVE__MODE].map(|place| place as u32);
             block.set_integers(&references, &[inflow, drive as i32])?;
             block.set_booleans(&[boolean::FLAPPING__ENABLED as u32], &[1])?;
             block.start()?;

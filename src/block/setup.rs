@@ -33,7 +33,7 @@ pub enum SetupError {
         cause: AirfoilError,
     },
     #[error(
-        "model.lift = thesisSlope, but the airfoil file {airfoil:?} ({parameter}) has no lift slopes; set {parameter} to a Modelica CombiTable file such as airfoils/naca0015.txt, or model.lift to table or twoPi"
+        "models.lift = slopesByReynolds, but the airfoil file {airfoil:?} ({parameter}) has no lift slopes; set {parameter} to a Modelica CombiTable file such as airfoils/naca0015.txt, or models.lift to table or twoPi"
     )]
     NoLaws {
         airfoil: String,
@@ -48,15 +48,15 @@ pub enum SetupError {
     )]
     TooManyToFlap { blades: u32 },
     #[error(
-        "flapping.enabled = true with model.blades = disc: a mean over a turn has no blade to flap; set model.blades to automatic or individual"
+        "flapping.enabled = true with models.blades = disc: a mean over a turn has no blade to flap; set models.blades to automatic or individual"
     )]
     DiscCannotFlap,
     #[error(
-        "flapping.enabled = true with model.inflow = annulusClosedForm, which knows axial flow past rigid blades only; set another inflow model, or flapping.enabled to false"
+        "flapping.enabled = true with models.inflow = annulusClosedForm, which knows axial flow past rigid blades only; set another inflow model, or flapping.enabled to false"
     )]
     ClosedFormCannotFlap,
     #[error(
-        "model.groundEffect with model.inflow = annulusClosedForm, which knows free air only; set another inflow model, or model.groundEffect to none"
+        "models.groundEffect with models.inflow = annulusClosedForm, which knows free air only; set another inflow model, or models.groundEffect to none"
     )]
     ClosedFormKnowsNoGround,
     #[error("{name} holds the value {value}, which is no choice")]
@@ -68,7 +68,7 @@ pub fn rotor(values: &Values, resources: &Path) -> Result<(Rotor, Vec<String>), 
     let mut notes = Vec::new();
     let geometry = shape(values, resources, &mut notes)?;
     let standard = values.strings[string::AIRFOIL__FILE].as_str();
-    let lift = choice(values, integer::MODEL__LIFT, LiftModel::from_integer)?;
+    let lift = choice(values, integer::MODELS__LIFT, LiftModel::from_integer)?;
     let mut airfoils = Vec::with_capacity(geometry.airfoils.len());
     for station_airfoil in &geometry.airfoils {
         let own = !station_airfoil.is_empty();
@@ -88,7 +88,7 @@ pub fn rotor(values: &Values, resources: &Path) -> Result<(Rotor, Vec<String>), 
                 }
             }
         })?;
-        if lift == LiftModel::ThesisSlope && !airfoil.has_laws() {
+        if lift == LiftModel::SlopesByReynolds && !airfoil.has_laws() {
             return Err(SetupError::NoLaws {
                 airfoil: name.to_owned(),
                 parameter: if own {
@@ -177,7 +177,7 @@ fn shape(
 }
 
 fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
-    let inflow = match choice(values, integer::MODEL__INFLOW, InflowModel::from_integer)? {
+    let inflow = match choice(values, integer::MODELS__INFLOW, InflowModel::from_integer)? {
         InflowModel::Annulus => Inflow::Annulus,
         InflowModel::AnnulusClosedForm => Inflow::AnnulusClosedForm,
         InflowModel::Uniform => Inflow::Disc(Skew::Uniform),
@@ -197,7 +197,7 @@ fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
     };
     let ground = choice(
         values,
-        integer::MODEL__GROUND_EFFECT,
+        integer::MODELS__GROUND_EFFECT,
         GroundEffectModel::from_integer,
     )?;
     let ground_effect = match ground {
@@ -208,14 +208,14 @@ fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
     if inflow == Inflow::AnnulusClosedForm && ground_effect != GroundEffect::None {
         return Err(SetupError::ClosedFormKnowsNoGround);
     }
-    let blades = match choice(values, integer::MODEL__BLADES, BladesModel::from_integer)? {
+    let blades = match choice(values, integer::MODELS__BLADES, BladesModel::from_integer)? {
         BladesModel::Automatic => Blades::Automatic,
         BladesModel::Disc => Blades::Disc,
         BladesModel::Individual => Blades::Individual,
     };
     Ok(Models {
         inflow,
-        descent: match choice(values, integer::MODEL__DESCENT, DescentModel::from_integer)? {
+        descent: match choice(values, integer::MODELS__DESCENT, DescentModel::from_integer)? {
             DescentModel::Momentum => Descent::Momentum,
             DescentModel::Measured => Descent::Measured,
             DescentModel::Johnson => Descent::Johnson,
@@ -223,7 +223,7 @@ fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
         ground_effect,
         blades,
         hinge: hinge(values, geometry, inflow, blades)?,
-        tip_loss: match choice(values, integer::MODEL__TIP_LOSS, TipLossModel::from_integer)? {
+        tip_loss: match choice(values, integer::MODELS__TIP_LOSS, TipLossModel::from_integer)? {
             TipLossModel::None => TipLoss::None,
             TipLossModel::Prandtl => TipLoss::Prandtl,
             TipLossModel::PrandtlTipAndRoot => TipLoss::PrandtlTipAndRoot,
@@ -232,14 +232,14 @@ fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
             TipLossModel::PrandtlThrust => TipLoss::PrandtlThrust,
         },
         section: SectionModel {
-            lift: match choice(values, integer::MODEL__LIFT, LiftModel::from_integer)? {
+            lift: match choice(values, integer::MODELS__LIFT, LiftModel::from_integer)? {
                 LiftModel::Table => Lift::Table,
                 LiftModel::TwoPi => Lift::TwoPi,
-                LiftModel::ThesisSlope => Lift::ThesisSlope,
+                LiftModel::SlopesByReynolds => Lift::SlopesByReynolds,
             },
             compressibility: match choice(
                 values,
-                integer::MODEL__COMPRESSIBILITY,
+                integer::MODELS__COMPRESSIBILITY,
                 CompressibilityModel::from_integer,
             )? {
                 CompressibilityModel::None => Compressibility::None,

@@ -364,11 +364,11 @@ mod tests {
             assert_eq!(values, before);
         }
         let error =
-            values.set_integers(Stage::Configuring, &[integer::MODEL__INFLOW as u32], &[99]);
+            values.set_integers(Stage::Configuring, &[integer::MODELS__INFLOW as u32], &[99]);
         let error = error.unwrap_err().to_string();
         assert!(
             error.contains(
-                "model.inflow = 99 is no choice; set one of 1 (annulusClosedForm), 2 (annulus), 3"
+                "models.inflow = 99 is no choice; set one of 1 (annulusClosedForm), 2 (annulus), 3"
             ),
             "{error}"
         );

@@ -6,18 +6,18 @@ use helicopter_rotor::block::variables::{INTEGERS, STATES};
 
 /// Forward flight with dynamic inflow, three flapping blades and a torque that drives.
 fn configure(instance: &Instance) {
-    let choices = INTEGERS[reference(&INTEGERS, "model.inflow") as usize].choices;
+    let choices = INTEGERS[reference(&INTEGERS, "models.inflow") as usize].choices;
     let inflow = choices
         .iter()
         .position(|c| *c == "pittPetersDynamic")
         .unwrap() as i32
         + 1;
     for (name, value) in [
-        ("model.inflow", inflow),
-        ("driveMode", 2),
+        ("models.inflow", inflow),
+        ("drive.mode", 2),
         ("geometry.numberOfBlades", 3),
         // A flat plate: no kinks of a table between its points, where methods lose their order.
-        ("model.lift", 2),
+        ("models.lift", 2),
         ("numerics.elements", 12),
     ] {
         assert_eq!(instance.set_integer(name, value), c::OK);
@@ -27,7 +27,7 @@ fn configure(instance: &Instance) {
         ("velocity[1]", 15.0),
         ("tilt", 0.06),
         ("driveTorque", 6.0),
-        ("driveInertia", 0.5),
+        ("drive.inertia", 0.5),
         ("flapping.hingeOffset", 0.04),
         // Both find their start, which is of the steps in flight, with this one.
         ("numerics.azimuthStep", AZIMUTH_STEP),
@@ -159,11 +159,11 @@ fn model_exchange_approaches_co_simulation_by_the_order_of_the_importers_method(
 /// A long flight with every inflow model: the same rotor, to the error of the methods.
 #[test]
 fn every_inflow_model_is_the_same_rotor_in_both_interfaces() {
-    let choices = INTEGERS[reference(&INTEGERS, "model.inflow") as usize].choices;
+    let choices = INTEGERS[reference(&INTEGERS, "models.inflow") as usize].choices;
     for (i, inflow) in choices.iter().enumerate() {
         let prepare = |instance: &Instance| {
             configure(instance);
-            assert_eq!(instance.set_integer("model.inflow", i as i32 + 1), c::OK);
+            assert_eq!(instance.set_integer("models.inflow", i as i32 + 1), c::OK);
             let flaps = i32::from(*inflow != "annulusClosedForm");
             assert_eq!(instance.set_boolean("flapping.enabled", flaps), c::OK);
             assert_eq!(instance.set_real("numerics.azimuthStep", 0.02), c::OK);

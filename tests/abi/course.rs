@@ -256,7 +256,7 @@ fn change_everything(instance: &Instance) {
         let status = instance.set_boolean(v.name, i32::from(!v.start));
         assert_eq!(status, c::OK, "{}", v.name);
     }
-    // The last choice of model.lift needs a file of lift slopes.
+    // The last choice of models.lift needs a file of lift slopes.
     for (name, file) in [
         ("geometry.file", "thesis.toml"),
         ("airfoil.file", "naca0015.txt"),

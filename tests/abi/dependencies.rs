@@ -42,14 +42,14 @@ fn dependencies(tag: &str) -> BTreeMap<String, BTreeSet<String>> {
 
 /// Rotors of many kinds, so that everything matters in one of them.
 fn configure(instance: &Instance, kind: usize) {
-    let choices = INTEGERS[reference(&INTEGERS, "model.inflow") as usize].choices;
+    let choices = INTEGERS[reference(&INTEGERS, "models.inflow") as usize].choices;
     let inflow = ["petersHe", "uniform", "pittPetersDynamic", "annulus"][kind];
     let inflow = choices.iter().position(|c| *c == inflow).unwrap() as i32 + 1;
     for (name, value) in [
-        ("model.inflow", inflow),
-        ("driveMode", [2, 1, 1, 2][kind]),
-        ("air.model", [1, 2, 1, 1][kind]),
-        ("model.groundEffect", [1, 2, 3, 1][kind]),
+        ("models.inflow", inflow),
+        ("drive.mode", [2, 1, 1, 2][kind]),
+        ("air.atmosphere", [1, 2, 1, 1][kind]),
+        ("models.groundEffect", [1, 2, 3, 1][kind]),
         ("geometry.numberOfBlades", [8, 2, 1, 3][kind]),
         ("numerics.inflowOrder", 6),
         ("numerics.elements", 10),

@@ -16,10 +16,10 @@ fn under_way(kind: i32) -> Instance<'static> {
         ..Creation::default()
     };
     let instance = Instance::create(Fmu::shared(), &creation).unwrap();
-    let choices = INTEGERS[reference(&INTEGERS, "model.inflow") as usize].choices;
+    let choices = INTEGERS[reference(&INTEGERS, "models.inflow") as usize].choices;
     let model = choices.iter().position(|c| *c == "pittPetersDynamic");
     let model = model.unwrap() as i32 + 1;
-    assert_eq!(instance.set_integer("model.inflow", model), c::OK);
+    assert_eq!(instance.set_integer("models.inflow", model), c::OK);
     assert_eq!(instance.set_real("velocity[1]", 12.0), c::OK);
     assert_eq!(instance.set_real("flapping.hingeSpring", 3.0), c::OK);
     if kind == c::MODEL_EXCHANGE {

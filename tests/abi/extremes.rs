@@ -23,7 +23,7 @@ fn flown(instance: &Instance, inputs: &[(&str, f64)]) -> Result<Vec<f64>, String
 /// A running instance with an inflow model (1 annulusClosedForm, 2 annulus).
 fn with_inflow(model: i32) -> Instance<'static> {
     let instance = Instance::new();
-    assert_eq!(instance.set_integer("model.inflow", model), c::OK);
+    assert_eq!(instance.set_integer("models.inflow", model), c::OK);
     instance.initialize();
     instance
 }

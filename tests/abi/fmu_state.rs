@@ -21,7 +21,7 @@ pub struct Rotor {
 /// Every inflow model, with and without flapping and drive by torque; the tip losses in turn.
 pub fn rotors() -> Vec<Rotor> {
     let mut rotors = Vec::new();
-    for inflow in INTEGERS[reference(&INTEGERS, "model.inflow") as usize].choices {
+    for inflow in INTEGERS[reference(&INTEGERS, "models.inflow") as usize].choices {
         for (flapping, is_driven) in [(false, false), (true, false), (false, true), (true, true)] {
             if *inflow != "annulusClosedForm" || !flapping {
                 let tip_loss = 1 + rotors.len() as i32 % 7;
@@ -38,12 +38,12 @@ pub fn rotors() -> Vec<Rotor> {
 }
 
 pub fn configure(instance: &Instance, rotor: Rotor) {
-    let choices = INTEGERS[reference(&INTEGERS, "model.inflow") as usize].choices;
+    let choices = INTEGERS[reference(&INTEGERS, "models.inflow") as usize].choices;
     let inflow = choices.iter().position(|c| *c == rotor.inflow).unwrap() as i32 + 1;
     for (name, value) in [
-        ("model.inflow", inflow),
-        ("driveMode", 1 + i32::from(rotor.is_driven)),
-        ("model.tipLoss", rotor.tip_loss),
+        ("models.inflow", inflow),
+        ("drive.mode", 1 + i32::from(rotor.is_driven)),
+        ("models.tipLoss", rotor.tip_loss),
         ("numerics.elements", 15),
         ("geometry.numberOfBlades", 3),
         // From rest, which takes no search for the start.

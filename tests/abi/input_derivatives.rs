@@ -11,15 +11,15 @@ use std::{f64::consts::PI, ptr};
 /// Runs after the choices of inflow by name, flapping, and drive by torque.
 fn running(inflow: &str, flapping: bool, is_driven: bool) -> Instance<'static> {
     let instance = Instance::new();
-    let choices = INTEGERS[reference(&INTEGERS, "model.inflow") as usize].choices;
+    let choices = INTEGERS[reference(&INTEGERS, "models.inflow") as usize].choices;
     let number = choices.iter().position(|c| *c == inflow).unwrap() as i32 + 1;
-    assert_eq!(instance.set_integer("model.inflow", number), c::OK);
+    assert_eq!(instance.set_integer("models.inflow", number), c::OK);
     assert_eq!(
         instance.set_boolean("flapping.enabled", flapping.into()),
         c::OK
     );
     assert_eq!(
-        instance.set_integer("driveMode", 1 + i32::from(is_driven)),
+        instance.set_integer("drive.mode", 1 + i32::from(is_driven)),
         c::OK
     );
     assert_eq!(instance.set_real("driveTorque", 3.0), c::OK);

@@ -11,8 +11,8 @@ use std::ptr;
 /// Forward flight with flapping blades in dynamic inflow, turned by a torque: every kind of state is in use.
 fn forward_flight(instance: &Instance) {
     for (name, choice) in [
-        ("model.inflow", "pittPetersDynamic"),
-        ("driveMode", "torque"),
+        ("models.inflow", "pittPetersDynamic"),
+        ("drive.mode", "torque"),
     ] {
         choose(instance, name, choice);
     }
@@ -154,7 +154,7 @@ fn time_alone_changes_nothing() {
 #[test]
 fn discrete_outputs_change_at_events_only_and_ask_for_them() {
     let instance = Instance::for_model_exchange();
-    choose(&instance, "model.inflow", "uniform");
+    choose(&instance, "models.inflow", "uniform");
     instance.begin_integration();
     let normal = instance.integer("flowState");
     assert!(!instance.completed_step());
@@ -195,7 +195,7 @@ fn discrete_outputs_change_at_events_only_and_ask_for_them() {
 #[test]
 fn tunable_parameters_are_set_in_event_mode_and_fixed_ones_never() {
     let instance = Instance::for_model_exchange();
-    choose(&instance, "air.model", "constant");
+    choose(&instance, "air.atmosphere", "userDefined");
     instance.begin_integration();
     let thrust = instance.real("thrust");
     let message = instance.refused(instance.set_real("air.density", 1.0));

@@ -125,15 +125,15 @@ fn integers_and_enumerations_out_of_range_are_refused_with_the_choices() {
             0,
             "1 (counterClockwise), 2 (clockwise)",
         ),
-        ("model.inflow", 99, "1 (annulusClosedForm), 2 (annulus)"),
-        ("model.lift", i32::MIN, "1 (table), 2 (twoPi)"),
+        ("models.inflow", 99, "1 (annulusClosedForm), 2 (annulus)"),
+        ("models.lift", i32::MIN, "1 (table), 2 (twoPi)"),
         (
-            "model.tipLoss",
+            "models.tipLoss",
             99,
             "1 (none), 2 (prandtl), 3 (gessowMyers)",
         ),
-        ("model.compressibility", -1, "1 (none), 2 (prandtlGlauert)"),
-        ("air.model", 3, "1 (isa), 2 (constant)"),
+        ("models.compressibility", -1, "1 (none), 2 (prandtlGlauert)"),
+        ("air.atmosphere", 3, "1 (isa), 2 (userDefined)"),
     ] {
         let parts = [name, &value.to_string(), choices, "keeps"];
         refused_at_the_start(&parts, |i| i.set_integer(name, value));
@@ -333,7 +333,7 @@ fn null_pointers_are_refused_unless_nothing_is_announced() {
 #[test]
 fn a_tunable_parameter_takes_effect_with_the_next_step() {
     let instance = Instance::new();
-    assert_eq!(instance.set_integer("air.model", 2), c::OK);
+    assert_eq!(instance.set_integer("air.atmosphere", 2), c::OK);
     instance.initialize();
     let before = (instance.real("airDensity"), instance.real("thrust"));
     assert_eq!(before.0, 1.225);

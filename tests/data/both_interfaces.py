@@ -13,10 +13,10 @@ fmu = sys.argv[1]
 names = ["thrust", "rotorSpeed", "coning", "azimuth", "collective"]
 # Dynamic inflow of Pitt & Peters, flapping blades, driven by a torque.
 start = {
-    "model.inflow": "12",
+    "models.inflow": "12",
     "flapping.enabled": True,
-    "driveMode": "2",
-    "driveInertia": 0.5,
+    "drive.mode": "2",
+    "drive.inertia": 0.5,
 }
 # Nine inputs, as FMPy has room for the derivatives of nine.
 inputs = {

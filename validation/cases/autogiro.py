@@ -81,8 +81,8 @@ def at(quantity, mu):
 def parameters(task, resources, folder):
     chosen = {
         "geometry.file": "pca-2.toml",
-        "model.inflow": task if task in MODELS else "pittPetersDynamic",
-        "model.tipLoss": "prandtl" if task == "tip loss" else "wheatley",
+        "models.inflow": task if task in MODELS else "pittPetersDynamic",
+        "models.tipLoss": "prandtl" if task == "tip loss" else "wheatley",
         "numerics.elements": 20,
         "flapping.enabled": True,
         "flapping.inertia": INERTIA,
@@ -172,8 +172,8 @@ def settle(rotor, chosen, mu, rpm):
     along = edgewise(mu, rpm)
     free = {
         **chosen,
-        "driveMode": "torque",
-        "driveInertia": 4.0 * INERTIA,
+        "drive.mode": "torque",
+        "drive.inertia": 4.0 * INERTIA,
         "rpm": rpm,
         "velocity[1]": along,
     }

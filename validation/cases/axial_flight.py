@@ -14,9 +14,9 @@ SETTINGS = {
     "disc": {**rotors.THESIS_CHOICES},
     "blades, uniform": {
         **rotors.THESIS_CHOICES,
-        "model.inflow": "uniform",
-        "model.blades": "individual",
-        "model.descent": "momentum",
+        "models.inflow": "uniform",
+        "models.blades": "individual",
+        "models.descent": "momentum",
     },
     "defaults": {},
 }

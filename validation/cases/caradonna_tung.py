@@ -30,7 +30,7 @@ def parameters(rule, pitch, rpm, mach):
     return {
         "geometry.file": "caradonna-tung.toml",
         "flapping.precone": math.radians(0.5),
-        "model.compressibility": rule,
+        "models.compressibility": rule,
         "collective": math.radians(pitch),
         "rpm": rpm,
         **rotors.air(1.225, temperature),

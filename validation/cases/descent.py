@@ -48,7 +48,7 @@ def fly(rotor, task, _resources):
     if task == "law":
         return halves()
     law, inflow = task.split()
-    parameters = {**rotors.CASTLES_GRAY, "model.descent": law, "model.inflow": inflow}
+    parameters = {**rotors.CASTLES_GRAY, "models.descent": law, "models.inflow": inflow}
 
     def trimmed(thrust, rpm, ratio):
         """Collective (deg), rise of CQ, v/v_h at CT and V_d/v_h; whether that thrust can be had."""

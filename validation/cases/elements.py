@@ -36,7 +36,7 @@ def fly(rotor, task, resources):
         chosen = {
             **own,
             **rotors.THESIS_CHOICES,
-            "model.inflow": inflow,
+            "models.inflow": inflow,
             "collective": math.radians(CASES[case]),
         }
         values, times = [], []

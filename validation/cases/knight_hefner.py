@@ -15,7 +15,7 @@ import rotors
 FILE = "knight-hefner-1937-tn626-hover.csv"
 CASE = "Knight & Hefner 1937, hover"
 BLADES = (3, 4)
-LIFTS = ("table", "twoPi", "thesisSlope")
+LIFTS = ("table", "twoPi", "slopesByReynolds")
 TASKS = [f"{lift} {blades}" for lift in LIFTS for blades in BLADES]
 COMPARED_FROM = 4.0  # deg; below, the measured thrust is too small for differences in per cent
 PITCHES = [0.5 * i for i in range(31)]
@@ -32,11 +32,11 @@ def points(blades):
 def fly(rotor, task, resources):
     lift, blades = task.split()
     with rotors.own_folder() as folder:
-        if lift == "thesisSlope":
+        if lift == "slopesByReynolds":
             parameters = rotors.knight_hefner_slopes(blades, resources, Path(folder))
         else:
             parameters = rotors.knight_hefner(blades)
-        parameters["model.lift"] = lift
+        parameters["models.lift"] = lift
         rotor.start(parameters)
         at = lambda pitch: rotor.fly(OUTPUTS, collective=math.radians(pitch))
         return {

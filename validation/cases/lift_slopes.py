@@ -9,7 +9,7 @@ import page
 import rotors
 
 RATIOS = [-1.0 + 0.1 * i for i in range(21)]
-LIFTS = ("thesisSlope", "twoPi", "table")
+LIFTS = ("slopesByReynolds", "twoPi", "table")
 RULES = ("none", "karmanTsien")
 CASES = {
     "thesis, 15.3 deg": (15.3, rotors.THESIS_RADIUS, rotors.THESIS_RPM),
@@ -32,13 +32,13 @@ def fly(rotor, task, resources):
         chosen = {
             **own,
             "collective": math.radians(pitch),
-            "model.compressibility": rule,
-            "model.tipLoss": "prandtl",
-            "model.inflow": "annulus",
+            "models.compressibility": rule,
+            "models.tipLoss": "prandtl",
+            "models.inflow": "annulus",
         }
-        rotor.start({**chosen, "model.lift": "thesisSlope", "model.compressibility": "none"})
+        rotor.start({**chosen, "models.lift": "slopesByReynolds", "models.compressibility": "none"})
         hover = rotors.hover_speed(rotor.fly(OUTPUTS)[0], radius, rpm)
-        chosen["model.lift"] = lift
+        chosen["models.lift"] = lift
         rotor.start(chosen)
         flights = [rotor.fly(OUTPUTS, **{"velocity[3]": ratio * hover}) for ratio in RATIOS]
         return {"flights": flights, "models": rotor.models(chosen)}

@@ -10,9 +10,9 @@ import rotors
 
 ELEMENTS = 120
 SETTINGS = {
-    "thesisSlope, annulusClosedForm": {**rotors.THESIS_CHOICES},
-    "thesisSlope, annulus": {**rotors.THESIS_CHOICES, "model.inflow": "annulus"},
-    "table, annulus": {"model.inflow": "annulus"},
+    "slopesByReynolds, annulusClosedForm": {**rotors.THESIS_CHOICES},
+    "slopesByReynolds, annulus": {**rotors.THESIS_CHOICES, "models.inflow": "annulus"},
+    "table, annulus": {"models.inflow": "annulus"},
 }
 # Root cutout, radius.
 CASES = {
@@ -80,7 +80,7 @@ def report(flown, figures):
 def draw(flown, file):
     figure, (by_radius, by_pitch) = drawing.figure(1, 2, height=4.6)
     for j, case in enumerate(CASES):
-        own = flown[f"{case}; thesisSlope, annulus"]
+        own = flown[f"{case}; slopesByReynolds, annulus"]
         for i, pitch in enumerate(rotors.THESIS_PITCHES):
             style = drawing.line(i) | {"marker": ("", "o")[j], "markersize": 3}
             by_radius.plot(own["radius"], own["angles"][pitch], **style, label=f"{case}, {pitch} deg")

@@ -54,7 +54,7 @@ pub enum Lift {
     /// Flat plate: cl = 2 pi sin(alpha) (thesis eq. 49).
     TwoPi,
     /// One lift slope by the pitch of the element (thesis 3.5.1), for a file of laws only.
-    ThesisSlope,
+    SlopesByReynolds,
 }
 
 /// How a section's coefficients are made from its table.
@@ -113,7 +113,7 @@ impl Airfoil {
         &self.name
     }
 
-    /// Whether the file gives laws, which `Lift::ThesisSlope` needs.
+    /// Whether the file gives laws, which `Lift::SlopesByReynolds` needs.
     pub fn has_laws(&self) -> bool {
         matches!(self.data, Data::Laws(_))
     }
@@ -135,7 +135,7 @@ impl Airfoil {
     }
 
     /// Lift coefficient at angle of attack `alpha` (rad, any value) of an element with the pitch
-    /// `pitch` (rad), on which only `Lift::ThesisSlope` depends.
+    /// `pitch` (rad), on which only `Lift::SlopesByReynolds` depends.
     pub fn lift_coefficient<S: Scalar>(
         &self,
         model: &SectionModel,
@@ -227,7 +227,7 @@ impl Airfoil {
 
     /// Slope of one line for the lift, 1/rad, and the angle of zero lift on that line, rad. Of a table,
     /// the line through the lift at -3 and +3 deg of angle of attack: thesis section 3.5.1, line A. Of
-    /// laws, line A, or with `Lift::ThesisSlope` line A or B by the pitch of the element (rad).
+    /// laws, line A, or with `Lift::SlopesByReynolds` line A or B by the pitch of the element (rad).
     pub fn lift_line<S: Scalar>(
         &self,
         model: &SectionModel,
@@ -266,7 +266,7 @@ impl Airfoil {
 impl SectionModel {
     /// Which of the lines of a file of laws the lift follows.
     fn line(&self, pitch: f64) -> Line {
-        if self.lift == Lift::ThesisSlope {
+        if self.lift == Lift::SlopesByReynolds {
             Line::ByPitch(pitch)
         } else {
             Line::Broken

@@ -40,12 +40,12 @@ fn set(block: &mut RotorBlock, place: usize, value: f64) {
 }
 
 /// Parameters and their values.
-const LIFT: (usize, i32) = (integer::MODEL__LIFT, LiftModel::ThesisSlope as i32);
+const LIFT: (usize, i32) = (integer::MODELS__LIFT, LiftModel::SlopesByReynolds as i32);
 const INCOMPRESSIBLE: (usize, i32) = (
-    integer::MODEL__COMPRESSIBILITY,
+    integer::MODELS__COMPRESSIBILITY,
     CompressibilityModel::None as i32,
 );
-const NO_TIP_LOSS: (usize, i32) = (integer::MODEL__TIP_LOSS, TipLossModel::None as i32);
+const NO_TIP_LOSS: (usize, i32) = (integer::MODELS__TIP_LOSS, TipLossModel::None as i32);
 /// As many as stations are shown.
 const ELEMENTS: (usize, i32) = (integer::NUMERICS__ELEMENTS, 20);
 
@@ -79,7 +79,7 @@ fn the_pitch_chooses_the_slope() {
             (8.0, 5.0),
             (-8.0, 5.0),
         ] {
-            let inflow = (integer::MODEL__INFLOW, inflow as i32);
+            let inflow = (integer::MODELS__INFLOW, inflow as i32);
             let mut block = block(
                 &constant_laws(),
                 &[LIFT, INCOMPRESSIBLE, NO_TIP_LOSS, ELEMENTS, inflow],
@@ -143,7 +143,7 @@ fn the_drag_is_the_polynomial_and_stall_is_the_files() {
 #[test]
 fn a_table_of_laws_is_near_the_polar_that_it_was_made_from() {
     let thrust = |file: &str, collective: f64, lift: LiftModel| {
-        let mut block = block(file, &[(integer::MODEL__LIFT, lift as i32)]);
+        let mut block = block(file, &[(integer::MODELS__LIFT, lift as i32)]);
         set(&mut block, real::COLLECTIVE, f64::to_radians(collective));
         block.update().unwrap();
         block.values().reals[real::THRUST]
@@ -159,7 +159,7 @@ fn a_table_of_laws_is_near_the_polar_that_it_was_made_from() {
     // At small angles of attack B lies below A, which `table` has there.
     let (a, b) = (
         thrust("naca0015.txt", 5.0, LiftModel::Table),
-        thrust("naca0015.txt", 5.0, LiftModel::ThesisSlope),
+        thrust("naca0015.txt", 5.0, LiftModel::SlopesByReynolds),
     );
     assert!(b < a && b > 0.85 * a, "{a} {b}");
 }
@@ -167,15 +167,15 @@ fn a_table_of_laws_is_near_the_polar_that_it_was_made_from() {
 /// The shipped file in all that a rotor meets, with every inflow model that has no states.
 #[test]
 fn every_flight_state_is_finite() {
-    let choices = INTEGERS[integer::MODEL__INFLOW].choices;
+    let choices = INTEGERS[integer::MODELS__INFLOW].choices;
     for (i, inflow) in choices.iter().enumerate() {
         if matches!(*inflow, "pittPetersDynamic" | "petersHe") {
             continue;
         }
-        for lift in [LiftModel::ThesisSlope, LiftModel::Table] {
+        for lift in [LiftModel::SlopesByReynolds, LiftModel::Table] {
             let models = [
-                (integer::MODEL__LIFT, lift as i32),
-                (integer::MODEL__INFLOW, i as i32 + 1),
+                (integer::MODELS__LIFT, lift as i32),
+                (integer::MODELS__INFLOW, i as i32 + 1),
                 (integer::NUMERICS__ELEMENTS, 8),
             ];
             let mut block = block("naca0015.txt", &models);
@@ -210,10 +210,10 @@ fn a_file_without_lift_slopes_is_refused_with_the_remedy() {
         let mut block = block(file, &[LIFT]);
         let message = block.update().unwrap_err().to_string();
         for part in [
-            "model.lift = thesisSlope",
+            "models.lift = slopesByReynolds",
             file,
             "set airfoil.file to a Modelica CombiTable file such as airfoils/naca0015.txt",
-            "model.lift to table",
+            "models.lift to table",
         ] {
             assert!(message.contains(part), "{part:?} is not in: {message}");
         }
