@@ -223,7 +223,11 @@ fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
         ground_effect,
         blades,
         hinge: hinge(values, geometry, inflow, blades)?,
-        tip_loss: match choice(values, integer::MODELS__TIP_LOSS, TipLossModel::from_integer)? {
+        tip_loss: match choice(
+            values,
+            integer::MODELS__TIP_LOSS,
+            TipLossModel::from_integer,
+        )? {
             TipLossModel::None => TipLoss::None,
             TipLossModel::Prandtl => TipLoss::Prandtl,
             TipLossModel::PrandtlTipAndRoot => TipLoss::PrandtlTipAndRoot,
