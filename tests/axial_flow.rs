@@ -3,23 +3,21 @@
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
 
-use helicopter_rotor::{
-    block::{
-        RotorBlock,
-        variables::{integer, real, string},
-    },
-    rotor::{
-        Blades, Drive, Models, Operation, Performance, Rotor,
-        air::Air,
-        airfoil::{Airfoil, Lift, SectionModel},
-        compressibility::Compressibility,
-        flapping::Hinge,
-        geometry::Geometry,
-        inflow::{Descent, Inflow, ground::GroundEffect},
-        tip_loss::TipLoss,
-    },
+use helicopter_rotor::block::{
+    RotorBlock,
+    variables::{integer, real, string},
 };
 use nalgebra::Vector3;
+use rotor::{
+    Blades, Drive, Models, Operation, Performance, Rotor,
+    air::Air,
+    airfoil::{Airfoil, Lift, SectionModel},
+    compressibility::Compressibility,
+    flapping::Hinge,
+    geometry::Geometry,
+    inflow::{Descent, Inflow, ground::GroundEffect},
+    tip_loss::TipLoss,
+};
 use std::{f64::consts::PI, fs, path::PathBuf};
 
 fn resources() -> PathBuf {

@@ -6,23 +6,21 @@
 #[path = "support/block.rs"]
 mod support;
 
-use helicopter_rotor::{
-    block::{
-        RotorBlock,
-        variables::{boolean, integer, real},
-    },
-    rotor::{
-        Blades, Drive, Models, Operation, Performance, Rotor, State,
-        air::Air,
-        airfoil::{Airfoil, Lift, SectionModel},
-        compressibility::Compressibility,
-        flapping::Hinge,
-        geometry::{Geometry, Station},
-        inflow::{Descent, Inflow, Skew, ground::GroundEffect},
-        tip_loss::TipLoss,
-    },
+use helicopter_rotor::block::{
+    RotorBlock,
+    variables::{boolean, integer, real},
 };
 use nalgebra::Vector3;
+use rotor::{
+    Blades, Drive, Models, Operation, Performance, Rotor, State,
+    air::Air,
+    airfoil::{Airfoil, Lift, SectionModel},
+    compressibility::Compressibility,
+    flapping::Hinge,
+    geometry::{Geometry, Station},
+    inflow::{Descent, Inflow, Skew, ground::GroundEffect},
+    tip_loss::TipLoss,
+};
 use std::f64::consts::PI;
 use support::{choice, default_block, project, set};
 
@@ -99,9 +97,7 @@ fn in_axial_flow_blades_over_a_turn_are_the_disc() {
             let operation = flight(0.2, Vector3::new(0.0, 0.0, climb));
             let mut disc = rotor(inflow, Blades::Disc);
             let expected = disc.steady(&operation).unwrap();
-            let state = disc
-                .start(&operation, helicopter_rotor::rotor::Start::Steady, 0.05)
-                .unwrap();
+            let state = disc.start(&operation, rotor::Start::Steady, 0.05).unwrap();
             let mut blades = rotor(inflow, Blades::Individual);
             let mean = mean_over_a_turn(&mut blades, &operation, &state);
             let part = |a: f64, b: f64| (a / b - 1.0).abs();
@@ -126,9 +122,7 @@ fn in_forward_flight_blades_over_a_turn_are_near_the_disc() {
         let operation = flight(0.2, Vector3::new(20.0, 3.0, 0.5));
         let mut disc = rotor(inflow, Blades::Disc);
         let expected = disc.steady(&operation).unwrap();
-        let state = disc
-            .start(&operation, helicopter_rotor::rotor::Start::Steady, 0.05)
-            .unwrap();
+        let state = disc.start(&operation, rotor::Start::Steady, 0.05).unwrap();
         let mean = mean_over_a_turn(&mut rotor(inflow, Blades::Individual), &operation, &state);
         let scale = expected.force.z;
         assert!(

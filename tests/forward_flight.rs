@@ -4,23 +4,21 @@
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
 
-use helicopter_rotor::{
-    block::{
-        RotorBlock,
-        variables::{INTEGERS, integer, real},
-    },
-    rotor::{
-        Blades, Drive, Models, Operation, Performance, Rotor,
-        air::Air,
-        airfoil::{Airfoil, Lift, SectionModel},
-        compressibility::Compressibility,
-        flapping::Hinge,
-        geometry::{Geometry, Rotation},
-        inflow::{Descent, Inflow, Skew, ground::GroundEffect},
-        tip_loss::TipLoss,
-    },
+use helicopter_rotor::block::{
+    RotorBlock,
+    variables::{INTEGERS, integer, real},
 };
 use nalgebra::Vector3;
+use rotor::{
+    Blades, Drive, Models, Operation, Performance, Rotor,
+    air::Air,
+    airfoil::{Airfoil, Lift, SectionModel},
+    compressibility::Compressibility,
+    flapping::Hinge,
+    geometry::{Geometry, Rotation},
+    inflow::{Descent, Inflow, Skew, ground::GroundEffect},
+    tip_loss::TipLoss,
+};
 use std::{f64::consts::PI, fs, path::PathBuf};
 
 const SPEED: f64 = 100.0;

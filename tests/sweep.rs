@@ -9,13 +9,11 @@
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
 
-use helicopter_rotor::{
-    block::{
-        BlockError, RotorBlock, SetupError,
-        variables::{BOOLEANS, INTEGERS, REALS, boolean, integer, real, string},
-    },
-    rotor::SolveError,
+use helicopter_rotor::block::{
+    BlockError, RotorBlock, SetupError,
+    variables::{BOOLEANS, INTEGERS, REALS, boolean, integer, real, string},
 };
+use rotor::SolveError;
 use std::{
     f64::consts::PI,
     panic::{AssertUnwindSafe, catch_unwind},

@@ -110,6 +110,6 @@ class Rotor:
                 items = variable.declaredType.items if variable.declaredType else []
                 names = {str(item.value): item.name for item in items}
                 choice = names.get(str(variable.start), variable.start)
-            named.append(f"{name.removeprefix('model.')} `{choice}`")
+            named.append(f"{name.removeprefix('models.')} `{choice}`")
         elements = parameters.get("numerics.elements", self.variables["numerics.elements"].start)
         return f"{', '.join(named)}; {elements} elements"

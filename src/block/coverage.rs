@@ -1,6 +1,6 @@
 //! A sentence for the log where the flow goes beyond the data of an airfoil file.
 
-use crate::rotor::{Rotor, airfoil::Axis};
+use rotor::{Rotor, airfoil::Axis};
 
 /// What was said already.
 #[derive(Debug, Default)]

@@ -9,8 +9,8 @@ use super::{
     values::{ValueError, Values},
     variables::{Causality, REALS, STATES, is_state, real},
 };
-use crate::rotor::{Response, Rotor, State};
 use num_dual::Dual64;
+use rotor::{Response, Rotor, State};
 use thiserror::Error;
 
 /// Why a derivative was not computed.

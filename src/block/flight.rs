@@ -5,13 +5,13 @@ use super::{
     values::Values,
     variables::{Atmosphere, DriveMode, integer, real},
 };
-use crate::rotor::{
+use core::f64::consts::PI;
+use nalgebra::{Matrix3, Vector3};
+use rotor::{
     Drive, Operation,
     air::{Air, STANDARD_GRAVITY},
     scalar::Scalar,
 };
-use core::f64::consts::PI;
-use nalgebra::{Matrix3, Vector3};
 
 /// What the inputs ask of the rotor, and where its hub is turned to.
 pub struct Flight<S = f64> {

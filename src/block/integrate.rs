@@ -7,7 +7,7 @@
 //! times, whatever the communication step. Inputs that move within a communication step begin a grid of their
 //! own at its beginning.
 
-use crate::rotor::{Drive, Operation, Rotor, SolveError, State};
+use rotor::{Drive, Operation, Rotor, SolveError, State};
 
 /// The states, and the place on the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

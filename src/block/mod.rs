@@ -23,13 +23,13 @@ pub use setup::SetupError;
 pub use snapshot::Snapshot;
 pub use values::{Stage, ValueError, Values};
 
-use crate::rotor::{self, Operation, Response, Rotor, SolveError};
 use course::Course;
 use coverage::Coverage;
 use flight::Flight;
 use integrate::{Inputs, Memory};
 use num_dual::Dual64;
 use outputs::{write_outputs, write_stations};
+use rotor::{Operation, Response, Rotor, SolveError};
 use states::{read_states, write_derivatives, write_states};
 use std::path::PathBuf;
 use thiserror::Error;

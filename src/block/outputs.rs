@@ -1,8 +1,8 @@
 //! What the rotor answers, as values of the outputs.
 
 use super::{flight::Shaft, variables::real};
-use crate::rotor::{Drive, Operation, Performance, Rotor, scalar::Scalar};
 use core::f64::consts::{PI, SQRT_2};
+use rotor::{Drive, Operation, Performance, Rotor, scalar::Scalar};
 
 /// Number of stations along the blade: of each quantity so many variables stand in a row.
 const STATIONS: usize = real::STATION_20__RADIUS - real::STATION_1__RADIUS + 1;

@@ -8,7 +8,7 @@ use super::{
         Initialization, LiftModel, Rotation, TipLossModel, boolean, integer, real, string,
     },
 };
-use crate::rotor::{
+use rotor::{
     Blades, Models, Rotor, Start,
     airfoil::{Airfoil, AirfoilError, Lift, SectionModel},
     compressibility::Compressibility,

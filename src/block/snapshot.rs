@@ -10,8 +10,8 @@ use super::{
     values::{Stage, Values},
     variables::{Causality, INTEGERS, REALS, STRINGS},
 };
-use crate::rotor::{Drive, Operation, State, air::Air};
 use nalgebra::Vector3;
+use rotor::{Drive, Operation, State, air::Air};
 
 /// A copy of what a block knows, without its rotor, which follows from the parameters.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! The rotor's states as the list of continuous states that the table of variables declares.
 
 use super::variables::{REALS, STATES};
-use crate::rotor::{
+use rotor::{
     State,
     flapping::Flap,
     scalar::Scalar,

@@ -145,9 +145,9 @@ pub unsafe extern "C" fn fmi2Instantiate(
     let body = || {
         // SAFETY: passed on from the caller.
         let callbacks = unsafe { functions.as_ref() };
-        let name = unsafe { text(instanceName, "instanceName") }
-            .ok()
-            .filter(|n| !n.is_empty());
+        // SAFETY: passed on from the caller.
+        let name = unsafe { text(instanceName, "instanceName") };
+        let name = name.ok().filter(|n| !n.is_empty());
         let logger = Logger {
             callback: callbacks.and_then(|f| f.logger),
             environment: callbacks.map_or(ptr::null_mut(), |f| f.componentEnvironment),

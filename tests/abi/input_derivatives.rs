@@ -267,9 +267,10 @@ fn only_finite_first_derivatives_of_inputs_are_taken() {
     refused(&["value reference 9999"], |i| {
         i.set_input_derivatives(&[9999], &[1], &[0.1])
     });
-    // SAFETY (both): the functions must not touch what is null.
-    let set = |i: &Instance, order: *const i32, value: *const f64| unsafe {
-        (i.functions.fmi2SetRealInputDerivatives)(i.component, &collective, 1, order, value)
+    let set = |i: &Instance, order: *const i32, value: *const f64| {
+        let set = i.functions.fmi2SetRealInputDerivatives;
+        // SAFETY: the functions must not touch what is null.
+        unsafe { set(i.component, &collective, 1, order, value) }
     };
     refused(&["order is a null pointer"], |i| set(i, ptr::null(), &0.1));
     refused(&["value is a null pointer"], |i| set(i, &1, ptr::null()));

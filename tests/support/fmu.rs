@@ -1,10 +1,11 @@
-//! The .fmu as the program packages it, unpacked and loaded.
+//! The FMU as an importer has it on its disk, loaded.
 
 use super::c::Functions;
+use helicopter_rotor::{block::variables::MODEL_IDENTIFIER, description};
 use std::{
+    env::consts::{DLL_PREFIX, DLL_SUFFIX},
     fs,
     path::{Path, PathBuf},
-    process::Command,
     sync::OnceLock,
 };
 
@@ -35,31 +36,34 @@ pub fn scratch() -> &'static Path {
     })
 }
 
-/// The .fmu, packaged once in each process.
-pub fn packaged_fmu() -> &'static Path {
-    static FILE: OnceLock<PathBuf> = OnceLock::new();
-    FILE.get_or_init(|| {
-        let file = scratch().join("HelicopterRotor.fmu");
-        let mut program = Command::new(env!("CARGO_BIN_EXE_helicopter-rotor"));
-        let output = program
-            .arg("package")
-            .arg("--out")
-            .arg(&file)
-            .output()
-            .unwrap();
-        assert!(
-            output.status.success(),
-            "package: {}",
-            String::from_utf8_lossy(&output.stderr)
-        );
-        file
-    })
+/// The shared library that cargo has built for these tests, beside them.
+fn library() -> PathBuf {
+    let tests = std::env::current_exe().unwrap();
+    tests.with_file_name(format!("{DLL_PREFIX}helicopter_rotor{DLL_SUFFIX}"))
 }
 
-/// Unpacks the .fmu into a folder.
+/// Lays the FMU out in a folder as it is when an importer has unpacked it.
 pub fn unpack_into(folder: &Path) {
-    let file = fs::File::open(packaged_fmu()).unwrap();
-    zip::ZipArchive::new(file).unwrap().extract(folder).unwrap();
+    let binaries = folder.join("binaries/linux64");
+    fs::create_dir_all(&binaries).unwrap();
+    let binary = binaries.join(format!("{MODEL_IDENTIFIER}{DLL_SUFFIX}"));
+    fs::copy(library(), binary).unwrap();
+    fs::write(folder.join("modelDescription.xml"), description::XML).unwrap();
+    let resources = Path::new(env!("CARGO_MANIFEST_DIR")).join("modelDescription/resources");
+    copy_folder(&resources, &folder.join("resources"));
+}
+
+fn copy_folder(from: &Path, to: &Path) {
+    fs::create_dir_all(to).unwrap();
+    for entry in fs::read_dir(from).unwrap() {
+        let path = entry.unwrap().path();
+        let copy = to.join(path.file_name().unwrap());
+        if path.is_dir() {
+            copy_folder(&path, &copy);
+        } else {
+            fs::copy(&path, &copy).unwrap();
+        }
+    }
 }
 
 /// The `file:` URI of a path, with everything percent-encoded but letters, digits, `/`, `-` and `.`.

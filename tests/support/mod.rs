@@ -1,7 +1,7 @@
-//! What the integration tests share: the packaged FMU, loaded as an importer loads it.
+//! What the integration tests share: the FMU, loaded as an importer loads it.
 //!
 //! * `c.rs`: the C types and functions of the standard, written apart from the code under test
-//! * `fmu.rs`: the .fmu as the program packages it, unpacked and loaded
+//! * `fmu.rs`: the FMU as an importer has it on its disk, loaded
 //! * `instance.rs`: an instance with variables by name, and its log
 //! * `model_exchange.rs`: its functions of Model Exchange
 //! * `child.rs`: a test run alone in a process of its own

@@ -20,7 +20,7 @@ from . import castles_gray
 
 FILE = "castles-gray-1951-tn2474-tableI-descent-6ft.csv"
 CASE = "Castles & Gray 1951, descent"
-LAW_FOLDER = Path(__file__).resolve().parents[2] / "descent-law"
+LAW_FOLDER = Path(__file__).resolve().parents[2] / "provenance" / "descent-law"
 LAWS = [
     ("momentum", "uniform"),
     ("measured", "uniform"),

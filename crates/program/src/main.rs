@@ -1,0 +1,133 @@
+//! The program: makes `HelicopterRotor.fmu`, flies it in FMPy beside measurements, and writes the page of how well.
+
+mod package;
+mod page;
+mod python;
+mod summary;
+
+use clap::{Parser, Subcommand};
+use std::{
+    fmt,
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
+
+/// HelicopterRotor.fmu: a helicopter rotor as an FMI 2.0 FMU, for Co-Simulation and Model Exchange.
+///
+/// Without a command: makes target/fmu/HelicopterRotor.fmu, flies the rotors that Knight & Hefner
+/// measured in 1937 with it in FMPy, prints computed beside measured thrust and torque, and draws
+/// them. The Python packages for this go into an environment of their own under target/.
+#[derive(Parser)]
+#[command(version)]
+struct Arguments {
+    /// Put this built library into the FMU, instead of building one with cargo
+    #[arg(long, global = true, value_name = "FILE")]
+    library: Option<PathBuf>,
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// Only make the .fmu
+    Package {
+        /// Where to write it [default: target/fmu/HelicopterRotor.fmu]
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
+    /// Make the reference inputs and outputs anew, that an importer is checked against, and the .fmu with them in it
+    Reference,
+    /// Fly every measured case with the FMU in FMPy, and write docs/validation.md, its figures and the README's summary
+    Validate {
+        /// Write nothing: compare them with what comes out now, within the last printed digit
+        #[arg(long)]
+        check: bool,
+        /// Folder for errors.csv, element-times.csv and the page [default: target/validation]
+        #[arg(long, value_name = "FOLDER")]
+        out: Option<PathBuf>,
+    },
+    /// Make the Python environment of the examples, and print the path of its interpreter
+    Python,
+}
+
+/// An error as a sentence for the person at the terminal.
+#[derive(Debug)]
+pub struct Failure(pub String);
+
+impl fmt::Display for Failure {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.0)
+    }
+}
+
+/// Adds what was being done to an error.
+pub fn failed<E: fmt::Display>(what: impl fmt::Display) -> impl FnOnce(E) -> Failure {
+    move |error| Failure(format!("{what}: {error}"))
+}
+
+/// The source tree that this program was built from.
+pub fn sources() -> &'static Path {
+    let package = Path::new(env!("CARGO_MANIFEST_DIR"));
+    package.ancestors().nth(2).unwrap_or(package)
+}
+
+fn main() -> ExitCode {
+    match run(Arguments::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            eprintln!("Error: {failure}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
+    let target = target_folder()?;
+    let library = || library.map_or_else(|| package::library::build(&target), Ok);
+    let default_fmu = target.join("fmu").join("HelicopterRotor.fmu");
+    match command {
+        Some(Command::Package { out }) => {
+            make_fmu(out.as_deref().unwrap_or(&default_fmu), &library()?)?;
+        }
+        Some(Command::Reference) => {
+            let library = library()?;
+            make_fmu(&default_fmu, &library)?;
+            python::make_reference_flights(&default_fmu, &target)?;
+            make_fmu(&default_fmu, &library)?;
+        }
+        Some(Command::Validate { check, out }) => {
+            let purpose = if check {
+                page::Purpose::Check
+            } else {
+                page::Purpose::Write
+            };
+            let out = out.unwrap_or_else(|| target.join("validation"));
+            page::run(&out, &library()?, &target, purpose)?;
+        }
+        Some(Command::Python) => {
+            println!("{}", python::environment(&target)?.display());
+        }
+        None => {
+            make_fmu(&default_fmu, &library()?)?;
+            python::fly_knight_hefner(&default_fmu, &target)?;
+        }
+    }
+    Ok(())
+}
+
+fn make_fmu(file: &Path, library: &Path) -> Result<(), Failure> {
+    package::write(file, library)?;
+    println!("Made {}", file.display());
+    Ok(())
+}
+
+/// Cargo's target folder, in which the program itself lies as `target/<profile>/<program>`.
+fn target_folder() -> Result<PathBuf, Failure> {
+    let program = std::env::current_exe().map_err(failed("cannot find this program's own file"))?;
+    let folder = program.parent().and_then(Path::parent);
+    folder.map(Path::to_path_buf).ok_or_else(|| {
+        Failure(
+            "this program lies outside of cargo's target folder; run it with `cargo run`".into(),
+        )
+    })
+}

@@ -1,0 +1,103 @@
+//! The shared library that goes into the FMU: built by cargo, which names the file, or given by the user.
+
+use crate::{Failure, failed, sources};
+use helicopter_rotor::block::variables::{GUID, MODEL_IDENTIFIER};
+use std::{
+    env::{self, consts::DLL_SUFFIX},
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Stdio},
+};
+
+/// The platform's folder in an FMU (FMI 2.0.5, section 2.3).
+#[cfg(all(target_os = "linux", target_arch = "x86_64"))]
+const PLATFORM: &str = "linux64";
+#[cfg(all(target_os = "macos", target_arch = "x86_64"))]
+const PLATFORM: &str = "darwin64";
+#[cfg(all(target_os = "windows", target_arch = "x86_64"))]
+const PLATFORM: &str = "win64";
+
+/// Builds the FMU's library with cargo, in the profile of this program, and answers the file that cargo names.
+///
+/// `target`: cargo's target folder. Fails if cargo is not there or cannot build; cargo's own words go to the terminal.
+pub fn build(target: &Path) -> Result<PathBuf, Failure> {
+    let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
+    command
+        .args(["build", "--quiet", "--lib", "--package", "helicopter-rotor"])
+        .args(["--message-format", "json-render-diagnostics"])
+        .arg("--manifest-path")
+        .arg(sources().join("Cargo.toml"))
+        .arg("--target-dir")
+        .arg(target)
+        .stderr(Stdio::inherit());
+    if !cfg!(debug_assertions) {
+        command.arg("--release");
+    }
+    let output = command.output().map_err(failed(
+        "cannot run cargo, which builds the FMU's library; put it on the PATH, or name a built library with --library",
+    ))?;
+    if !output.status.success() {
+        return Err(Failure(format!(
+            "cargo did not build the FMU's library ({}); its own words stand above",
+            output.status
+        )));
+    }
+    named_by_cargo(&String::from_utf8_lossy(&output.stdout))
+        .ok_or_else(|| Failure("cargo names no shared library of the FMU".into()))
+}
+
+/// The shared library among cargo's messages, one JSON object a line.
+fn named_by_cargo(messages: &str) -> Option<PathBuf> {
+    let messages = messages
+        .lines()
+        .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
+    let files = messages
+        .filter(|message| {
+            message["reason"] == "compiler-artifact"
+                && message["target"]["name"] == "helicopter_rotor"
+        })
+        .flat_map(|message| message["filenames"].as_array().cloned().unwrap_or_default());
+    files
+        .filter_map(|file| file.as_str().map(PathBuf::from))
+        .find(|file| file.to_string_lossy().ends_with(DLL_SUFFIX))
+}
+
+/// The binary's name in the FMU, and its content. The GUID in it must be that of the description.
+pub fn read(library: &Path) -> Result<(String, Vec<u8>), Failure> {
+    let content =
+        fs::read(library).map_err(failed(format!("cannot read {}", library.display())))?;
+    if !content
+        .windows(GUID.len())
+        .any(|window| window == GUID.as_bytes())
+    {
+        return Err(Failure(format!(
+            "{} was built from another modelDescription.xml than this program; build both anew with `cargo build`",
+            library.display()
+        )));
+    }
+    Ok((
+        format!("binaries/{PLATFORM}/{MODEL_IDENTIFIER}{DLL_SUFFIX}"),
+        content,
+    ))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_library_is_the_one_that_cargo_names() {
+        let file = format!("/target/release/libhelicopter_rotor{DLL_SUFFIX}");
+        let artifact = |name: &str| {
+            format!(
+                r#"{{"reason":"compiler-artifact","target":{{"name":"{name}"}},"filenames":["/target/release/{name}.rlib","{file}"]}}"#
+            )
+        };
+        let other = artifact("rotor");
+        let ours = artifact("helicopter_rotor");
+        let finished = r#"{"reason":"build-finished","success":true}"#;
+        let messages = format!("{other}\n{ours}\nnot JSON\n{finished}\n");
+        assert_eq!(named_by_cargo(&messages), Some(PathBuf::from(file)));
+        assert_eq!(named_by_cargo(&other), None);
+    }
+}

@@ -1,0 +1,414 @@
+//! Text files of Modelica's CombiTable blocks (Modelica Standard Library, Modelica.Blocks.Tables), with
+//! one table of section laws by Reynolds number.
+//!
+//! ```text
+//! #1
+//! # a comment, to the end of the line
+//! double naca0015(2, 7)         type (double or float), name, rows and columns
+//! # Re     slopes A and C, 1/rad   stall, rad   drag: d0, d1, d2 for alpha in rad
+//! 2e4      6.2     3.0             0.175        0.032   0.0   1.1
+//! 1e6      6.3     4.6             0.297        0.0096  0.0   0.36
+//! ```
+//!
+//! As in Modelica, numbers are separated by blanks, tabs, commas or semicolons, a row may go on in the next
+//! line, and a file may hold several tables: then the one with the name `airfoil` is read. The
+//! columns are those of `CombiTable1D` with the Reynolds number as its input; one to seven coefficients
+//! of the drag polynomial may stand at the end. What they mean: see `laws`.
+
+use super::{
+    Airfoil, AirfoilError, Data,
+    laws::{Law, Laws},
+    records::{Number, Problem, words},
+};
+
+/// Of several tables, the one that is read.
+const NAME: &str = "airfoil";
+
+/// Columns without the coefficients of the drag polynomial.
+const COLUMNS: usize = 4;
+const MOST_DRAG_COEFFICIENTS: usize = 7;
+
+/// Steeper lift (1/rad) is that of no section.
+const STEEPEST: f64 = 20.0;
+
+/// Later stall (deg) is that of no section in steady flow.
+const LATEST_STALL: f64 = 45.0;
+
+/// Angles up to stall at which the drag polynomial is tried.
+const TRIED: usize = 200;
+
+/// A table as its file has it.
+#[derive(Debug)]
+struct Matrix {
+    name: String,
+    rows: usize,
+    columns: usize,
+    line: usize,
+    numbers: Vec<Number>,
+}
+
+/// Whether a text begins as a CombiTable file does.
+pub fn is_combi(text: &str) -> bool {
+    let rest = text.strip_prefix("#1");
+    rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(char::is_whitespace))
+}
+
+/// Reads the text of a CombiTable file; `file` is its name for errors.
+pub fn parse(text: &str, file: &str) -> Result<Airfoil, AirfoilError> {
+    let laws = matrices(text)
+        .and_then(chosen)
+        .and_then(|matrix| Ok((laws(&matrix)?, matrix.name)));
+    match laws {
+        Ok((laws, name)) => Ok(Airfoil {
+            name,
+            data: Data::Laws(laws),
+        }),
+        Err((line, column, problem)) => Err(AirfoilError::MalformedField {
+            file: file.to_owned(),
+            line,
+            column,
+            problem,
+        }),
+    }
+}
+
+/// All tables of a file.
+fn matrices(text: &str) -> Result<Vec<Matrix>, Problem> {
+    if !is_combi(text) {
+        return Err((1, 1, "the file must begin with `#1`".into()));
+    }
+    let mut tables: Vec<Matrix> = Vec::new();
+    let mut last_line = 1;
+    for (i, line) in text.lines().enumerate() {
+        let content = line.split('#').next().unwrap_or("");
+        let line = i + 1;
+        if content.trim().is_empty() {
+            continue;
+        }
+        last_line = line;
+        if content.trim_start().starts_with(char::is_alphabetic) {
+            if let Some(table) = tables.last() {
+                table.check_complete(line)?;
+            }
+            tables.push(header(content, line)?);
+            continue;
+        }
+        for (column, word) in words(content) {
+            let Some(table) = tables.last_mut() else {
+                let problem = format!(
+                    "`{word}` before the first table, which begins with a line like `double {NAME}(2, 7)`"
+                );
+                return Err((line, column, problem));
+            };
+            table.take(word, line, column)?;
+        }
+    }
+    match tables.last() {
+        None => {
+            let problem =
+                format!("the file has no table; it begins with a line like `double {NAME}(2, 7)`");
+            Err((last_line, 1, problem))
+        }
+        Some(table) => table.check_complete(last_line).map(|()| tables),
+    }
+}
+
+/// `double name(rows, columns)`.
+fn header(content: &str, line: usize) -> Result<Matrix, Problem> {
+    let column = 1 + content.chars().take_while(|c| c.is_whitespace()).count();
+    let wrong = || {
+        let problem = format!(
+            "`{}` begins no table; write `double name(rows, columns)`",
+            content.trim()
+        );
+        (line, column, problem)
+    };
+    let (kind, rest) = content
+        .trim()
+        .split_once(char::is_whitespace)
+        .ok_or_else(wrong)?;
+    if kind != "double" && kind != "float" {
+        return Err(wrong());
+    }
+    let (name, rest) = rest.split_once('(').ok_or_else(wrong)?;
+    let (rows, rest) = rest.split_once(',').ok_or_else(wrong)?;
+    let (columns, rest) = rest.split_once(')').ok_or_else(wrong)?;
+    let count = |text: &str| text.trim().parse::<usize>().ok().filter(|n| *n > 0);
+    match (count(rows), count(columns)) {
+        (Some(rows), Some(columns)) if rest.is_empty() && !name.trim().is_empty() => Ok(Matrix {
+            name: name.trim().to_owned(),
+            rows,
+            columns,
+            line,
+            numbers: Vec::new(),
+        }),
+        _ => Err(wrong()),
+    }
+}
+
+impl Matrix {
+    /// How many numbers it holds when it is complete.
+    fn size(&self) -> usize {
+        self.rows.saturating_mul(self.columns)
+    }
+
+    /// As in the file's header.
+    fn title(&self) -> String {
+        format!("{}({}, {})", self.name, self.rows, self.columns)
+    }
+
+    fn take(&mut self, word: &str, line: usize, column: usize) -> Result<(), Problem> {
+        if self.numbers.len() == self.size() {
+            let problem = format!(
+                "`{word}` is one number too many for the table {} of line {}; correct its rows and columns",
+                self.title(),
+                self.line
+            );
+            return Err((line, column, problem));
+        }
+        let value = word.parse::<f64>().ok().filter(|v| v.is_finite());
+        let Some(value) = value else {
+            return Err((line, column, format!("`{word}` is not a number")));
+        };
+        self.numbers.push(Number {
+            value,
+            line,
+            column,
+        });
+        Ok(())
+    }
+
+    fn check_complete(&self, line: usize) -> Result<(), Problem> {
+        if self.numbers.len() == self.size() {
+            return Ok(());
+        }
+        let problem = format!(
+            "the table {} of line {} ends after {} numbers; add the others or correct its rows and columns",
+            self.title(),
+            self.line,
+            self.numbers.len()
+        );
+        Err((line, 1, problem))
+    }
+}
+
+/// The table with the section's data.
+fn chosen(mut tables: Vec<Matrix>) -> Result<Matrix, Problem> {
+    let named = tables.iter().position(|t| t.name == NAME);
+    if let Some(place) = named.or((tables.len() == 1).then_some(0)) {
+        return Ok(tables.swap_remove(place));
+    }
+    let names: Vec<&str> = tables.iter().map(|t| t.name.as_str()).collect();
+    let problem = format!(
+        "the tables {} are in the file; give the one with the section's data the name `{NAME}`",
+        names.join(", ")
+    );
+    Err((1, 1, problem))
+}
+
+/// The rows as laws.
+fn laws(matrix: &Matrix) -> Result<Laws, Problem> {
+    if !(COLUMNS + 1..=COLUMNS + MOST_DRAG_COEFFICIENTS).contains(&matrix.columns) {
+        let problem = format!(
+            "the table {} must have 5 to 11 columns: Reynolds number, lift slopes A and C in 1/rad, stall angle in rad, and 1 to {MOST_DRAG_COEFFICIENTS} coefficients of the drag polynomial",
+            matrix.title()
+        );
+        return Err((matrix.line, 1, problem));
+    }
+    let mut laws: Vec<Law> = Vec::new();
+    for row in matrix.numbers.chunks_exact(matrix.columns) {
+        laws.push(law(row, laws.last())?);
+    }
+    Ok(Laws::new(laws))
+}
+
+fn law(row: &[Number], before: Option<&Law>) -> Result<Law, Problem> {
+    let refuse = |number: &Number, problem: String| Err((number.line, number.column, problem));
+    let [reynolds, slope_a, slope_c, stall, drag @ ..] = row else {
+        return Err((1, 1, "a row has too few columns".into()));
+    };
+    if reynolds.value < 1.0 {
+        let problem = format!("Reynolds number {} must be 1 or more", reynolds.value);
+        return refuse(reynolds, problem);
+    }
+    if let Some(before) = before
+        && reynolds.value <= before.reynolds
+    {
+        let problem = format!(
+            "Reynolds number {} must be above that of the row before ({})",
+            reynolds.value, before.reynolds
+        );
+        return refuse(reynolds, problem);
+    }
+    if !(slope_a.value > 0.0 && slope_a.value <= STEEPEST) {
+        let problem = format!(
+            "lift slope A = {} must be above 0 and at most {STEEPEST} per rad",
+            slope_a.value
+        );
+        return refuse(slope_a, problem);
+    }
+    if !(0.0..=STEEPEST).contains(&slope_c.value) {
+        let problem = format!(
+            "lift slope C = {} must be 0 to {STEEPEST} per rad",
+            slope_c.value
+        );
+        return refuse(slope_c, problem);
+    }
+    if !(stall.value > 0.0 && stall.value <= LATEST_STALL.to_radians()) {
+        let problem = format!(
+            "stall angle {} must be above 0 and at most {:.3} rad ({LATEST_STALL} deg); angles are in rad",
+            stall.value,
+            LATEST_STALL.to_radians()
+        );
+        return refuse(stall, problem);
+    }
+    let law = Law {
+        reynolds: reynolds.value,
+        slope_a: slope_a.value,
+        slope_c: slope_c.value,
+        stall: stall.value,
+        drag: drag.iter().map(|d| d.value).collect(),
+    };
+    for i in 0..=TRIED {
+        let alpha = law.stall * i as f64 / TRIED as f64;
+        let value: f64 = law.attached_drag(alpha);
+        if !(value >= 0.0 && value.is_finite()) {
+            let problem = format!(
+                "the drag polynomial gives {value} at {:.2} deg; from 0 to the stall angle it must not be negative",
+                alpha.to_degrees()
+            );
+            return refuse(&drag[0], problem);
+        }
+    }
+    Ok(law)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::airfoil::{Similarity, laws::Line};
+
+    const GOOD: &str = "\
+#1
+# NACA 0015, two rows
+double airfoil(2, 7)  # rows, columns
+2e4 6.2 3.0 0.175 0.032 0.0 1.1
+1e6 6.3 4.6 0.297 0.0096 0.0 0.36 # last
+";
+
+    fn read(text: &str) -> Laws {
+        match parse(text, "x.txt").unwrap().data {
+            Data::Laws(laws) => laws,
+            Data::Tables { .. } => unreachable!(),
+        }
+    }
+
+    #[test]
+    fn a_good_file_is_read() {
+        let laws = read(GOOD);
+        let flow = |reynolds| Similarity {
+            reynolds,
+            mach: 0.0,
+        };
+        assert_eq!(laws.slope(Line::ByPitch(0.0), flow(2e4)), 6.2);
+        assert!((laws.slope(Line::ByPitch(0.2), flow(1e6)) - 5.45).abs() < 1e-14);
+        assert_eq!(laws.stall(flow(1e6)), 0.297);
+        assert_eq!(laws.drag(0.0, flow(2e4)), 0.032);
+    }
+
+    #[test]
+    fn what_modelica_allows_is_the_same_file() {
+        let good = read(GOOD);
+        let (start, rows) = GOOD.split_once("double").unwrap();
+        let several =
+            format!("{start}double other(2,2)\n1 2\n3 4\ndouble{rows}float last(1,1)\n5\n");
+        for text in [
+            GOOD.replace('\n', "\r\n"),
+            GOOD.replace("6.2 3.0 0.175", "6.2,3.0;\t0.175"),
+            GOOD.replace("6.2 3.0", "6.2 # slope A\n\n 3.0"),
+            GOOD.replace("0.0 1.1\n", "0.0 1.1 "),
+            GOOD.replace("double airfoil(2, 7)", "  float\tairfoil ( 2 ,7 ) "),
+            GOOD.replace("airfoil", "naca0015"),
+            GOOD.trim_end().to_owned(),
+            several,
+        ] {
+            assert_eq!(read(&text), good, "{text}");
+        }
+    }
+
+    #[test]
+    fn errors_name_file_line_column_and_problem() {
+        for (from, to, place, part) in [
+            (
+                "double airfoil(2, 7)",
+                "2 7",
+                "line 3, column 1",
+                "before the first table",
+            ),
+            (
+                "double",
+                "integer",
+                "line 3, column 1",
+                "write `double name(rows, columns)`",
+            ),
+            ("(2, 7)", "(2; 7)", "line 3, column 1", "begins no table"),
+            ("(2, 7)", "(0, 7)", "line 3, column 1", "begins no table"),
+            (
+                "(2, 7)",
+                "(1, 7)",
+                "line 5, column 1",
+                "one number too many",
+            ),
+            (
+                "(2, 7)",
+                "(3, 7)",
+                "line 5, column 1",
+                "ends after 14 numbers",
+            ),
+            (
+                "(2, 7)",
+                "(99999999999999, 99999999999999)",
+                "line 5, column 1",
+                "ends after 14",
+            ),
+            ("(2, 7)", "(7, 2)", "line 3, column 1", "5 to 11 columns"),
+            (
+                "double airfoil(2, 7)",
+                "",
+                "line 4, column 1",
+                "before the first table",
+            ),
+            ("6.2", "6.2x", "line 4, column 5", "`6.2x` is not a number"),
+            ("6.2", "nan", "line 4, column 5", "`nan` is not a number"),
+            ("6.2", "1e999", "line 4, column 5", "is not a number"),
+            ("6.2", "-6.2", "line 4, column 5", "must be above 0"),
+            ("4.6", "46", "line 5, column 9", "0 to 20 per rad"),
+            ("0.175", "10.0", "line 4, column 13", "angles are in rad"),
+            ("0.175", "0", "line 4, column 13", "must be above 0"),
+            ("2e4", "0.5", "line 4, column 1", "must be 1 or more"),
+            (
+                "1e6",
+                "2e4",
+                "line 5, column 1",
+                "above that of the row before (20000)",
+            ),
+            ("1.1", "-1.1", "line 4, column 19", "must not be negative"),
+        ] {
+            let text = GOOD.replacen(from, to, 1);
+            let error = parse(&text, "bad.txt").unwrap_err().to_string();
+            let begins = format!("airfoil file bad.txt, {place}: ");
+            assert!(
+                error.starts_with(&begins) && error.contains(part),
+                "{to:?}: {error}"
+            );
+        }
+        let two = GOOD.replace("airfoil", "one") + "double two(1,1)\n0\n";
+        let error = parse(&two, "x").unwrap_err().to_string();
+        assert!(
+            error.contains("one, two") && error.contains("`airfoil`"),
+            "{error}"
+        );
+        let error = parse("#1\n# nothing\n", "x").unwrap_err().to_string();
+        assert!(error.contains("no table"), "{error}");
+    }
+}

@@ -1,0 +1,105 @@
+//! Whatever a file holds, its readers answer with an airfoil or an error, and never panic.
+
+use super::{Airfoil, AirfoilError, Lift, SectionModel, Similarity, c81, combi, polar};
+use crate::compressibility::Compressibility;
+use proptest::{prelude::*, sample::Index};
+
+const SAMPLES: [&str; 3] = [
+    "#1\ndouble airfoil(2, 7)\n2e4 6.2 3.0 0.175 0.032 0 1.1\n1e6 6.3, 4.6; 0.297 0.0096 0 0.36 # x\n",
+    "polar 1\nname x\nreynolds 1e5\n-180 0 0.02\n0 0 0.01 # note\n10 1 0.02 -0.1\n180 0 0.02\n",
+    "Test section                   1 3 1 3 1 2\n          0.00\n-180.00   0.00\n   0.00   0.10\n 180.00   0.00\n          0.00\n-180.00   0.03\n   0.00   0.01\n 180.00   0.03\n",
+];
+
+/// What is put into a good file.
+fn piece() -> impl Strategy<Value = String> {
+    prop_oneof![
+        Just(String::new()),
+        prop::sample::select(vec![
+            " ",
+            "\n",
+            "\t",
+            "\r\n",
+            "-",
+            "#",
+            "(",
+            ")",
+            ",",
+            ";",
+            "1e999",
+            "nan",
+            "99",
+            "999999999999",
+            "-180.00",
+            "double a(9,9)",
+            "reynolds 1",
+            "\u{feff}",
+            "\0",
+            "ü",
+            "1d5",
+            "e",
+            ".",
+            "0.0",
+        ])
+        .prop_map(str::to_owned),
+        "\\PC{0,4}",
+    ]
+}
+
+/// A good file with some pieces of it replaced.
+fn damaged() -> impl Strategy<Value = String> {
+    let change = (any::<Index>(), 0..12_usize, piece());
+    let changes = prop::collection::vec(change, 1..4);
+    (prop::sample::select(&SAMPLES[..]), changes).prop_map(|(sample, changes)| {
+        let mut text: Vec<char> = sample.chars().collect();
+        for (place, length, piece) in changes {
+            let begin = place.index(text.len() + 1);
+            let end = (begin + length).min(text.len());
+            text.splice(begin..end, piece.chars());
+        }
+        text.into_iter().collect()
+    })
+}
+
+type Reader = fn(&str, &str) -> Result<Airfoil, AirfoilError>;
+
+fn check(text: &str) {
+    let readers: [Reader; 3] = [c81::parse, polar::parse, combi::parse];
+    for reader in readers {
+        let Ok(airfoil) = reader(text, "x") else {
+            continue;
+        };
+        let model = SectionModel {
+            lift: Lift::Table,
+            compressibility: Compressibility::PrandtlGlauert,
+            drag_reynolds_exponent: 0.2,
+        };
+        for i in -40_i32..=40 {
+            let alpha = f64::from(i) * 0.1;
+            let flow = Similarity {
+                reynolds: 10.0_f64.powi(i.abs() / 4),
+                mach: f64::from(i.abs()) / 40.0,
+            };
+            // The values themselves may be as absurd as the file.
+            let _ = airfoil.lift_coefficient(&model, 0.1, alpha, flow);
+            let _ = airfoil.drag_coefficient(&model, alpha, flow);
+            let _ = airfoil.stall_angles(flow);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 1000, ..ProptestConfig::default() })]
+
+    #[test]
+    fn damaged_files_never_panic(text in damaged()) {
+        check(&text);
+    }
+
+    #[test]
+    fn any_text_never_panics(text in "(?s).{0,200}") {
+        check(&text);
+        check(&format!("#1\ndouble x(2,5)\n{text}"));
+        check(&format!("polar 1\nreynolds 1\n{text}"));
+        check(&format!("name 2 3 1 3\n{text}"));
+    }
+}

@@ -1,0 +1,282 @@
+//! A symmetrical section by simple laws for each Reynolds number: two lift slopes, a stall angle and
+//! a polynomial for the drag, as in the thesis, sections 3.5.1 to 3.5.3.
+//!
+//! ```text
+//! line A   cl = a alpha                                   from 0 to 3 deg
+//! line C   cl = a 3 deg + c (alpha - 3 deg)               from 3 deg to stall
+//! line D   cl = c alpha                                   line C's slope from the origin: too low
+//! line B   cl = (a + c)/2 alpha                           the mean of A and D
+//! drag     cd = d0 + d1 alpha + d2 alpha^2 + ...          eq. (104), from 0 to stall
+//! ```
+//!
+//! The thesis takes one slope for each blade element: A for pitch angles up to 3 deg, B above, because the
+//! angle of attack is not known before the induced velocity, which needs the slope. Its words are "blade
+//! with collective pitch angles up to 3 degrees"; ours is the pitch of the element, collective and twist
+//! without the cyclic part: it does not depend on the radius at which the collective is
+//! counted, and it is the same on blades without twist.
+//!
+//! Beyond stall the thesis says nothing. We go on as the shipped polars do: Viterna & Corrigan (1982), NASA
+//! CP-2230, from the stall angle to 90 deg, with the largest drag coefficient 2.01 of a flat plate of
+//! aspect ratio 50,
+//!
+//! ```text
+//! cl = 2.01/2 sin(2 alpha) + A2 cos(alpha)^2/sin(alpha),   cd = 2.01 sin(alpha)^2 + B2 cos(alpha),
+//! ```
+//!
+//! A2 and B2 such that nothing jumps at stall. Beyond 90 deg, as in NREL's AirfoilPrep, drag is mirrored
+//! about 90 deg, lift is mirrored and times -0.7, and from 180 deg less the stall angle it runs linearly to
+//! 0 at 180 deg. Negative angles are mirrored: lift is odd, drag even.
+
+use super::{
+    Similarity,
+    layers::{Axis, Layers},
+    table::wrapped,
+};
+use crate::scalar::Scalar;
+use core::f64::consts::{FRAC_PI_2, PI};
+
+/// Up to this angle line A holds, rad.
+const EDGE: f64 = 3.0 * PI / 180.0;
+
+/// A pitch that is 3 deg but for rounding counts as 3 deg, rad.
+const ROUNDING: f64 = 1e-12;
+
+/// Largest drag coefficient beyond stall: 1.11 + 0.018 times the aspect ratio 50.
+const LARGEST_DRAG: f64 = 2.01;
+
+/// Lift in reversed flow against that in flow from the front.
+const REVERSED_LIFT: f64 = -0.7;
+
+/// Which of the lines the lift follows up to stall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Line {
+    /// A and then C.
+    Broken,
+    /// A or B, by the pitch of the element, rad.
+    ByPitch(f64),
+}
+
+/// The laws at one Reynolds number. Per rad, rad.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Law {
+    pub reynolds: f64,
+    /// Lift slopes of the lines A and C.
+    pub slope_a: f64,
+    pub slope_c: f64,
+    /// Above 0, below pi/2.
+    pub stall: f64,
+    /// d0, d1, d2, ...: not negative from 0 to the stall angle.
+    pub drag: Vec<f64>,
+}
+
+/// The laws at all Reynolds numbers of a file.
+///
+/// Between two of them the coefficients are linear in ln Re; outside, the nearest holds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Laws {
+    layers: Layers,
+    law: Vec<Law>,
+}
+
+impl Line {
+    /// Slope of the line through the origin, 1/rad.
+    fn slope(self, law: &Law) -> f64 {
+        match self {
+            Self::ByPitch(pitch) if pitch.abs() > EDGE + ROUNDING => {
+                0.5 * (law.slope_a + law.slope_c)
+            }
+            _ => law.slope_a,
+        }
+    }
+}
+
+impl Law {
+    /// Lift coefficient up to stall at an angle >= 0.
+    fn attached<S: Scalar>(&self, line: Line, alpha: S) -> S {
+        if line == Line::Broken && alpha.is_above(EDGE) {
+            return (alpha - EDGE) * self.slope_c + self.slope_a * EDGE;
+        }
+        alpha * line.slope(self)
+    }
+
+    fn lift<S: Scalar>(&self, line: Line, alpha: S) -> S {
+        if alpha.is_below(0.0) {
+            return -self.lift(line, -alpha);
+        }
+        if !alpha.is_above(self.stall) {
+            return self.attached(line, alpha);
+        }
+        let at_stall = self.attached(line, self.stall);
+        if !alpha.is_above(FRAC_PI_2) {
+            return self.stalled_lift(at_stall, alpha);
+        }
+        let mirrored = S::constant(PI) - alpha;
+        let lift = if !mirrored.is_below(self.stall) {
+            self.stalled_lift(at_stall, mirrored)
+        } else {
+            mirrored * (at_stall / self.stall)
+        };
+        lift * REVERSED_LIFT
+    }
+
+    /// Between the stall angle and 90 deg.
+    fn stalled_lift<S: Scalar>(&self, at_stall: f64, alpha: S) -> S {
+        let (sin_stall, cos_stall) = (libm::sin(self.stall), libm::cos(self.stall));
+        let a2 =
+            (at_stall - LARGEST_DRAG * sin_stall * cos_stall) * sin_stall / (cos_stall * cos_stall);
+        let (sin, cos) = (alpha.sin(), alpha.cos());
+        sin * cos * LARGEST_DRAG + cos * cos / sin * a2
+    }
+
+    /// Drag coefficient up to stall at an angle >= 0.
+    pub fn attached_drag<S: Scalar>(&self, alpha: S) -> S {
+        let zero = S::constant(0.0);
+        let sum = self.drag.iter().rev();
+        sum.fold(zero, |higher, coefficient| higher * alpha + *coefficient)
+    }
+
+    fn drag<S: Scalar>(&self, alpha: S) -> S {
+        let alpha = alpha.abs();
+        let folded = if alpha.is_above(FRAC_PI_2) {
+            S::constant(PI) - alpha
+        } else {
+            alpha
+        };
+        if !folded.is_above(self.stall) {
+            return self.attached_drag(folded);
+        }
+        let (sin_stall, cos_stall) = (libm::sin(self.stall), libm::cos(self.stall));
+        let at_stall = self.attached_drag(self.stall);
+        let b2 = (at_stall - LARGEST_DRAG * sin_stall * sin_stall) / cos_stall;
+        let sin = folded.sin();
+        sin * sin * LARGEST_DRAG + folded.cos() * b2
+    }
+}
+
+impl Laws {
+    /// At least one, Reynolds numbers strictly increasing.
+    pub fn new(law: Vec<Law>) -> Self {
+        let numbers = law.iter().map(|l| l.reynolds).collect();
+        Self {
+            layers: Layers::new(Axis::Reynolds, numbers),
+            law,
+        }
+    }
+
+    pub fn layers(&self) -> &Layers {
+        &self.layers
+    }
+
+    /// Lift coefficient at any angle (rad).
+    pub fn lift<S: Scalar>(&self, line: Line, alpha: S, flow: Similarity<S>) -> S {
+        let alpha = wrapped(alpha);
+        self.layers.mixed(flow, |i| self.law[i].lift(line, alpha))
+    }
+
+    /// Drag coefficient at any angle (rad).
+    pub fn drag<S: Scalar>(&self, alpha: S, flow: Similarity<S>) -> S {
+        let alpha = wrapped(alpha);
+        self.layers.mixed(flow, |i| self.law[i].drag(alpha))
+    }
+
+    /// Slope of the line through the origin, 1/rad.
+    pub fn slope<S: Scalar>(&self, line: Line, flow: Similarity<S>) -> S {
+        self.layers
+            .mixed(flow, |i| S::constant(line.slope(&self.law[i])))
+    }
+
+    /// rad, > 0.
+    pub fn stall<S: Scalar>(&self, flow: Similarity<S>) -> S {
+        self.layers.mixed(flow, |i| S::constant(self.law[i].stall))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn laws() -> Laws {
+        let law = |reynolds: f64, scale: f64| Law {
+            reynolds,
+            slope_a: 6.0 * scale,
+            slope_c: 4.0 * scale,
+            stall: scale * 0.2,
+            drag: vec![0.01, 0.0, 0.5],
+        };
+        Laws::new(vec![law(1e5, 1.0), law(1e6, 1.1)])
+    }
+
+    fn flow(reynolds: f64) -> Similarity<f64> {
+        Similarity {
+            reynolds,
+            mach: 0.0,
+        }
+    }
+
+    fn lift(line: Line, alpha: f64, reynolds: f64) -> f64 {
+        laws().lift(line, alpha, flow(reynolds))
+    }
+
+    #[test]
+    fn line_a_up_to_3_deg_of_pitch_and_above_the_mean_of_a_and_c_whatever_the_angle_of_attack() {
+        let degrees = |x: f64| x.to_radians();
+        for pitch in [-3.0, 0.0, 2.9, 3.0] {
+            let line = Line::ByPitch(degrees(pitch));
+            assert!((lift(line, 0.1, 1e5) - 0.6).abs() < 1e-15, "{pitch}");
+        }
+        for pitch in [-20.0, -3.1, 3.1, 16.9] {
+            let line = Line::ByPitch(degrees(pitch));
+            assert!((lift(line, 0.1, 1e5) - 0.5).abs() < 1e-15, "{pitch}");
+            assert!((lift(line, 0.01, 1e5) - 0.05).abs() < 1e-15, "{pitch}");
+        }
+    }
+
+    #[test]
+    fn without_a_pitch_the_lift_follows_a_and_then_c() {
+        assert!((lift(Line::Broken, 0.05, 1e5) - 0.3).abs() < 1e-15);
+        let expected = 6.0 * EDGE + 4.0 * (0.15 - EDGE);
+        assert!((lift(Line::Broken, 0.15, 1e5) - expected).abs() < 1e-15);
+        assert!((lift(Line::Broken, -0.15, 1e5) + expected).abs() < 1e-15);
+    }
+
+    #[test]
+    fn a_row_is_met_exactly_and_between_rows_the_coefficients_are_linear_in_ln_re() {
+        let line = Line::ByPitch(0.1);
+        assert_eq!(lift(line, 0.1, 1e6), laws().law[1].lift(line, 0.1));
+        assert_eq!(lift(line, 0.1, 1e9), lift(line, 0.1, 1e6), "nearest");
+        assert_eq!(lift(line, 0.1, 2e3), lift(line, 0.1, 1e5), "nearest");
+        let middle = lift(line, 0.1, libm::sqrt(1e11));
+        assert!((middle - 0.525).abs() < 1e-14);
+        assert!((laws().stall(flow(libm::sqrt(1e11))) - 0.21).abs() < 1e-14);
+    }
+
+    #[test]
+    fn drag_is_the_polynomial_up_to_stall() {
+        let drag = |alpha: f64| laws().drag(alpha, flow(1e5));
+        assert_eq!(drag(0.0), 0.01);
+        assert!((drag(0.1) - 0.015).abs() < 1e-15);
+        assert_eq!(drag(-0.1), drag(0.1));
+        assert!((drag(FRAC_PI_2) - 2.01).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_whole_circle_is_finite_without_jumps_odd_in_lift_and_even_in_drag() {
+        let step = 1e-4;
+        for line in [Line::Broken, Line::ByPitch(0.01), Line::ByPitch(0.3)] {
+            for i in -32_000..32_000 {
+                let alpha = f64::from(i) * step;
+                let (a, b) = (lift(line, alpha, 3e5), lift(line, alpha + step, 3e5));
+                assert!((b - a).abs() < 12.0 * step, "{line:?} {alpha}: {a} {b}");
+                assert!(a.abs() < 1.5, "{alpha}: {a}");
+                assert!((a + lift(line, -alpha, 3e5)).abs() < 1e-12);
+                let drag = |alpha: f64| laws().drag(alpha, flow(3e5));
+                let (a, b) = (drag(alpha), drag(alpha + step));
+                assert!((b - a).abs() < 3.0 * step, "{alpha}: {a} {b}");
+                assert!((0.01..=2.02).contains(&a), "{alpha}: {a}");
+                assert!((a - drag(-alpha)).abs() < 1e-12);
+            }
+        }
+        assert!(lift(Line::Broken, PI, 3e5).abs() < 1e-12);
+        assert!(lift(Line::Broken, FRAC_PI_2, 3e5).abs() < 1e-12);
+    }
+}

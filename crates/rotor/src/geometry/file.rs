@@ -1,0 +1,203 @@
+//! Rotor definition files (TOML): radial tables of chord, twist and airfoil.
+//!
+//! ```toml
+//! numberOfBlades = 3
+//! radius = 0.762                 # m
+//! pitchReferenceRadius = 0.75    # r/R, 0 if absent
+//! rotation = "counterClockwise"  # or "clockwise"
+//! station = [                    # from the cutout to the tip, r as r/R, chord in m, twist in deg
+//!     { r = 0.2, chord = 0.05, twist = 0.0 },
+//!     { r = 1.0, chord = 0.05, twist = -8.0, airfoil = "airfoils/naca0015.polar" },
+//! ]
+//! ```
+//!
+//! `name` and `source` are free text. `twist` is the pitch less that at any one radius: the
+//! collective is the pitch at the reference radius. Without `airfoil` a station has the rotor's
+//! standard airfoil.
+
+use super::{Geometry, GeometryError, Rotation, Station};
+use crate::text_file;
+use serde::Deserialize;
+use std::path::Path;
+use thiserror::Error;
+
+/// What is wrong with a rotor file, and where.
+#[derive(Debug, Error, Clone, PartialEq)]
+pub enum RotorFileError {
+    #[error("rotor file {file}: cannot be read ({reason}); give a file that exists and is text")]
+    Unreadable { file: String, reason: String },
+    #[error("rotor file {file}, line {line}, column {column}: {problem}")]
+    Malformed {
+        file: String,
+        line: usize,
+        column: usize,
+        problem: String,
+    },
+    #[error("rotor file {file}: {problem}")]
+    Shape {
+        file: String,
+        problem: GeometryError,
+    },
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
+struct RotorFile {
+    #[serde(rename = "name")]
+    _name: Option<String>,
+    #[serde(rename = "source")]
+    _source: Option<String>,
+    number_of_blades: u32,
+    radius: f64,
+    #[serde(default)]
+    pitch_reference_radius: f64,
+    #[serde(default = "counter_clockwise")]
+    rotation: FileRotation,
+    station: Vec<FileStation>,
+}
+
+#[derive(Deserialize)]
+#[serde(rename_all = "camelCase")]
+enum FileRotation {
+    CounterClockwise,
+    Clockwise,
+}
+
+fn counter_clockwise() -> FileRotation {
+    FileRotation::CounterClockwise
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FileStation {
+    r: f64,
+    chord: f64,
+    #[serde(default)]
+    twist: f64,
+    #[serde(default)]
+    airfoil: String,
+}
+
+impl Geometry {
+    /// Reads and checks a rotor definition.
+    pub fn read(path: &Path) -> Result<Self, RotorFileError> {
+        let file = path.display().to_string();
+        let text = text_file::read(path).map_err(|reason| RotorFileError::Unreadable {
+            file: file.clone(),
+            reason,
+        })?;
+        parse(&text, &file)
+    }
+}
+
+fn parse(text: &str, file: &str) -> Result<Geometry, RotorFileError> {
+    let rotor: RotorFile = toml::from_str(text).map_err(|error| {
+        let before = &text[..error.span().map_or(0, |span| span.start)];
+        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+        RotorFileError::Malformed {
+            file: file.to_owned(),
+            line: before.matches('\n').count() + 1,
+            column: before[line_start..].chars().count() + 1,
+            problem: error.message().trim().replace('\n', ", "),
+        }
+    })?;
+
+    let mut airfoils: Vec<String> = Vec::new();
+    let mut stations = Vec::with_capacity(rotor.station.len());
+    for station in rotor.station {
+        let known = airfoils.iter().position(|a| *a == station.airfoil);
+        let airfoil = known.unwrap_or_else(|| {
+            airfoils.push(station.airfoil);
+            airfoils.len() - 1
+        });
+        stations.push(Station {
+            radius_ratio: station.r,
+            chord: station.chord,
+            twist: station.twist.to_radians(),
+            airfoil,
+        });
+    }
+    let mut geometry = Geometry {
+        blades: rotor.number_of_blades,
+        radius: rotor.radius,
+        pitch_reference_radius: rotor.pitch_reference_radius,
+        rotation: match rotor.rotation {
+            FileRotation::CounterClockwise => Rotation::CounterClockwise,
+            FileRotation::Clockwise => Rotation::Clockwise,
+        },
+        tip_chord: 0.0,
+        stations,
+        airfoils,
+    };
+    geometry.check().map_err(|problem| RotorFileError::Shape {
+        file: file.to_owned(),
+        problem,
+    })?;
+    geometry.tip_chord = largest_outer_chord(&geometry);
+    Ok(geometry)
+}
+
+/// Largest chord in the outer tenth of the radius, so that a rounded tip is not taken for none.
+fn largest_outer_chord(geometry: &Geometry) -> f64 {
+    let at_its_inner_end = geometry.interpolate(0.9_f64.max(geometry.cutout()), |s| s.chord);
+    let outer = geometry.stations.iter().filter(|s| s.radius_ratio >= 0.9);
+    outer.map(|s| s.chord).fold(at_its_inner_end, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GOOD: &str = r#"name = "test"
+numberOfBlades = 2
+radius = 1.5
+station = [
+    { r = 0.2, chord = 0.1, twist = 4.0, airfoil = "airfoils/circle.polar" },
+    { r = 0.95, chord = 0.1, twist = 2.0 },
+    { r = 1.0, chord = 0.0, twist = 0.0 },
+]
+"#;
+
+    #[test]
+    fn a_good_file_is_read() {
+        let geometry = parse(GOOD, "good.toml").unwrap();
+        assert_eq!(geometry.blades, 2);
+        assert_eq!(geometry.airfoils, ["airfoils/circle.polar", ""]);
+        assert!((geometry.stations[0].twist.to_degrees() - 4.0).abs() < 1e-12);
+        assert_eq!(geometry.tip_chord, 0.1, "the rounded tip does not count");
+    }
+
+    #[test]
+    fn errors_name_file_place_and_problem() {
+        for (from, to, part) in [
+            (
+                "radius = 1.5",
+                "radius = \"big\"",
+                "bad.toml, line 3, column 10: ",
+            ),
+            (
+                "radius = 1.5",
+                "raduis = 1.5",
+                "bad.toml, line 3, column 1: unknown field `raduis`",
+            ),
+            ("radius = 1.5\n", "", "missing field `radius`"),
+            (
+                "radius = 1.5",
+                "radius = -1.5",
+                "bad.toml: the rotor radius is -1.5 m",
+            ),
+            (
+                "chord = 0.1, twist = 2.0",
+                "chord = -1, twist = 2.0",
+                "at r/R = 0.95 the chord is -1 m",
+            ),
+            ("r = 0.95", "r = 0.1", "r/R = 0.1 follows 0.2"),
+            ("[\n", "[[\n", "bad.toml, line "),
+        ] {
+            let error = parse(&GOOD.replacen(from, to, 1), "bad.toml")
+                .unwrap_err()
+                .to_string();
+            assert!(error.contains(part), "{to}: {error}");
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! Momentum theory for each blade by itself: Dahl 2015 after Knight & Hefner 1937 (NACA TN 626); thesis
+//! section 3.3.1.
+//!
+//! In the time T_rev that a blade takes to where the next one was, T_rev = 2 pi/(N Omega), its element of
+//! the width l meets the air of an area l U_T T_rev, which passes the disc at V + v and takes up twice v. So
+//! the lift L of the element is L = 2 rho l U_T T_rev (V + v) v, of which the thesis' formula is the root
+//!
+//! ```text
+//! v = (-l rho T_rev U_T V + sqrt(2 l rho T_rev U_T L + (l rho T_rev U_T V)^2))/(2 l rho T_rev U_T)
+//! ```
+//!
+//! (its L and signs are lost in the copy at hand). There L was the lift without v; here it is that in v,
+//! which makes the equation implicit. V is U_P, what passes the blade without v, in which each blade
+//! has its own. With L = 1/2 rho W c cl U_T (the part of the lift along the shaft, U_T = W cos phi) U_T
+//! cancels, so that the reversed flow's edge is no special case, and with Prandtl's F and v's direction
+//! free
+//!
+//! ```text
+//! 2 v |U_P + v| = N Omega c W cl sign(U_T)/(4 pi F).
+//! ```
+//!
+//! In hover this is the annulus' momentum without swirl. With flow along the disc, V_x, of which the source
+//! says nothing, |U_P + v| becomes Glauert's resultant sqrt(V_x^2 + (U_P + v)^2) (1926, ARC R&M 1111), as
+//! in the other models, and in descent what `descent` has for it: without the resultant the inflow would
+//! stay that of hover at any speed. A rotor at rest induces nothing.
+
+use super::{Descent, Induced, annulus::Answer, ground::Ground, uniform};
+use crate::{
+    disc::{DiscFlow, Encounter},
+    element::Element,
+    root::RootError,
+    scalar::Scalar,
+};
+use core::f64::consts::PI;
+
+/// What a blade's element induces.
+///
+/// `flow`: of the disc, of which the rotor speed and the speed along the disc count here.
+pub fn solve<S: Scalar>(
+    element: &Element<S>,
+    meets: &Encounter<S>,
+    flow: &DiscFlow<S>,
+    descent: Descent,
+    ground: Ground<S>,
+) -> Result<Answer<S>, RootError> {
+    let scale = (meets.in_plane.hypot(meets.through) + flow.edgewise).value();
+    if scale == 0.0 {
+        return Ok(Answer::none());
+    }
+    let pitch = element.pitch + meets.pitch;
+    let forward = if meets.in_plane.value() < 0.0 {
+        -1.0
+    } else {
+        1.0
+    };
+    let strength = flow.rotation.abs() * element.blades * element.chord * forward / (4.0 * PI);
+    // What is left of v near the ground, and the flow that meets the section with it.
+    let met = |v: S| {
+        let axial = ground.factor(flow.edgewise, v) * v;
+        let through = meets.through + meets.flap_cos * axial;
+        (axial, through, meets.in_plane.hypot(through))
+    };
+    // As in the annuli, the wake leaves with the air that takes up momentum.
+    let factor = |v: S, through: S, speed: S| {
+        let is_descent = descent != Descent::Momentum && (meets.through * v).value() < 0.0;
+        let leaves = if is_descent {
+            let leaves = descent.speed(S::zero(), meets.through, through - meets.through);
+            if leaves.value() < speed.value() {
+                leaves
+            } else {
+                speed
+            }
+        } else {
+            through
+        };
+        element.tip_loss_factor(leaves / speed)
+    };
+    let momentum = |v: S| {
+        let (_, through, speed) = met(v);
+        if speed.value() == 0.0 {
+            return S::zero();
+        }
+        let alpha = pitch - through.atan2(meets.in_plane);
+        let lift = element.lift_coefficient(alpha, speed);
+        strength * speed * lift * meets.flap_cos / factor(v, through, speed)
+    };
+    let mass_flow = |v: S| descent.speed(flow.edgewise, meets.through, v);
+    let v = uniform::mean_velocity(mass_flow, meets.through, scale, momentum)?;
+    let (axial, through, speed) = met(v);
+    let share = if speed.value() == 0.0 {
+        S::one()
+    } else {
+        factor(v, through, speed)
+    };
+    Ok(Answer {
+        induced: Induced::axial(axial),
+        mean_axial: share * axial,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{
+        super::annulus::tests::{airfoil, element},
+        *,
+    };
+
+    /// The air that passes a blade which is turned up changes its sign while the blade flaps: nothing jumps then,
+    /// neither in the momentum nor in Prandtl's F.
+    #[test]
+    fn nothing_jumps_where_the_flow_through_a_flapped_blade_changes_its_sign() {
+        let airfoil = airfoil();
+        let element = element(&airfoil, 0.1, 0.15);
+        let (flap_sin, flap_cos) = (0.3, libm::sqrt(1.0 - 0.09));
+        let flow = DiscFlow {
+            rotation: 100.0,
+            speed: 100.0,
+            ..DiscFlow::default()
+        };
+        let at = |through: f64| {
+            let meets = Encounter {
+                pitch: 0.0,
+                in_plane: 80.0,
+                through,
+                flap_sin,
+                flap_cos,
+                outboard: 0.8,
+                out: 0.8 * flap_cos,
+                up: 0.8 * flap_sin,
+            };
+            let answer = solve(
+                &element,
+                &meets,
+                &flow,
+                Descent::Measured,
+                Ground::default(),
+            );
+            answer.unwrap()
+        };
+        let (up, down) = (at(-1e-9), at(1e-9));
+        assert!(up.induced.axial > 1.0);
+        assert!((up.induced.axial - down.induced.axial).abs() < 1e-7);
+        assert!((up.mean_axial - down.mean_axial).abs() < 1e-7);
+    }
+}

@@ -1,0 +1,122 @@
+//! Ground effect: the ground holds back the wake, and the blades meet less induced velocity than the thrust
+//! would make far from it.
+//!
+//! What is published is the thrust at the same power, or the power at the same thrust; with P = T v k and
+//! T = 2 rho A v^2 in hover, k the part of the induced velocity that is left, thrust at the same power grows
+//! by k^(-2/3) and power at the same thrust falls by k.
+//!
+//! * Cheeseman & Bennett 1955, ARC R&M 3021: T/T_far = 1/(1 - G), G = (R/(4 z))^2/(1 + (V_x/v)^2) at
+//!   the same power, so k = (1 - G)^(3/2).
+//! * Hayden 1976, 32nd AHS Forum: P/P_far = 1/(0.9926 + 0.0379 (2 R/z)^2) at the same thrust, from flight
+//!   tests in hover. The same fading with forward speed is ours.
+//!
+//! Ours: below z = R/2, where neither was tried and the first would become infinite, the height counts as R/2;
+//! from 2 R up both fade, and are gone at 3 R.
+
+use crate::scalar::Scalar;
+
+/// The choice of model.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum GroundEffect {
+    #[default]
+    None,
+    CheesemanBennett,
+    Hayden,
+}
+
+/// The rotor near the ground.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Ground<S = f64> {
+    pub effect: GroundEffect,
+    /// z/R of the hub, >= 0.
+    pub height_ratio: S,
+}
+
+/// z/R below which the effect stays the same, and between which it fades out.
+const LOWEST: f64 = 0.5;
+const FADING: (f64, f64) = (2.0, 3.0);
+
+impl<S: Scalar> Ground<S> {
+    /// Whether the ground is not felt at all.
+    pub fn is_far(&self) -> bool {
+        self.effect == GroundEffect::None || self.height_ratio.value() >= FADING.1
+    }
+
+    /// k, 0 to 1: the part of the induced velocity that is left. `edgewise` (>= 0) and `induced`, m/s.
+    pub fn factor(&self, edgewise: S, induced: S) -> S {
+        if self.is_far() {
+            return S::one();
+        }
+        let height = self.height_ratio.at_least(LOWEST);
+        let t = ((height - FADING.0) / (FADING.1 - FADING.0))
+            .at_least(0.0)
+            .at_most(1.0);
+        let left = S::one() - t * t * (S::constant(3.0) - t * 2.0);
+        let (along, down) = (edgewise * edgewise, induced * induced);
+        let slow = if along.is_nothing(0.0) {
+            S::one()
+        } else {
+            down / (down + along)
+        };
+        match self.effect {
+            GroundEffect::None => S::one(),
+            GroundEffect::CheesemanBennett => {
+                let thrust = S::one() - left * slow / (height * 16.0 * height);
+                thrust * thrust.sqrt()
+            }
+            GroundEffect::Hayden => {
+                let power = S::one() / (S::constant(0.0379 * 4.0) / (height * height) + 0.9926);
+                S::one() - left * slow * (S::one() - power)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::disallowed_methods)] // the expectations are independent of libm
+mod tests {
+    use super::*;
+
+    fn at(effect: GroundEffect, height_ratio: f64) -> Ground {
+        Ground {
+            effect,
+            height_ratio,
+        }
+    }
+
+    /// By hand at z = R: 1/(1 - 1/16) = 1.0667 in thrust; 1/(0.9926 + 0.1516) = 0.8740 in power.
+    #[test]
+    fn published_values_at_one_radius() {
+        let k = at(GroundEffect::CheesemanBennett, 1.0).factor(0.0, 5.0);
+        assert!((k.powf(-2.0 / 3.0) - 16.0 / 15.0).abs() < 1e-12);
+        // At V_x = v the ground counts half.
+        let k = at(GroundEffect::CheesemanBennett, 1.0).factor(5.0, 5.0);
+        assert!((k.powf(-2.0 / 3.0) - 32.0 / 31.0).abs() < 1e-12);
+        let k = at(GroundEffect::Hayden, 1.0).factor(0.0, 5.0);
+        assert!((k - 1.0 / 1.1442).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_effect_grows_towards_the_ground_fades_with_speed_and_is_gone_above_3_radii() {
+        for effect in [GroundEffect::CheesemanBennett, GroundEffect::Hayden] {
+            let mut previous = 1.0;
+            for i in (0..=350).rev() {
+                let ground = at(effect, 0.01 * f64::from(i));
+                let k = ground.factor(0.0, 5.0);
+                assert!(k > 0.5 && k <= previous, "{effect:?} {i}: {k} {previous}");
+                assert!((previous - k).abs() < 0.02, "no jump");
+                previous = k;
+                let mut slower = k;
+                for speed in [1.0, 5.0, 20.0, 200.0] {
+                    let faster = ground.factor(speed, 5.0);
+                    assert!(faster >= slower && faster <= 1.0);
+                    slower = faster;
+                }
+                assert_eq!(i >= 300, ground.is_far());
+            }
+            assert_eq!(at(effect, 3.0).factor(0.0, 5.0), 1.0);
+            assert!(at(effect, 0.0).factor(0.0, 0.0).is_finite());
+        }
+        assert_eq!(at(GroundEffect::None, 0.5).factor(0.0, 5.0), 1.0);
+    }
+}

@@ -1,0 +1,517 @@
+#!/usr/bin/env python3
+"""Make the airfoil tables (.polar files); README.md describes format and methods.
+
+Angles are in degrees, coefficients are per unit span and chord, Reynolds numbers refer to the chord
+(for the circle: to the diameter). A section is handled for 0 <= alpha <= 180 deg and mirrored on
+output: cl odd, cd even. A section that is not symmetric is handled twice, upright and upside down.
+"""
+
+import argparse
+import csv
+import os
+import sys
+from dataclasses import dataclass
+from importlib.metadata import version
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).resolve().parent
+OUTPUT = HERE.parents[1] / "modelDescription" / "resources" / "airfoils"
+MEASURED_CSV = HERE / "airfoil-naca0015-knight-hefner-1937-Re242000.csv"
+
+MEASURED_REYNOLDS = 242_000
+KNOTS = np.array([0.0, 2, 4, 6, 7, 8, 9, 10, 11, 12])
+FIT_LIMIT_DEG = 12.7
+BELOW_STALL_DEG = 8
+
+REYNOLDS = [2e4, 4e4, 7e4, 1e5, 1.5e5, 2.42e5, 4e5, 7e5, 1e6, 2e6, 5e6, 1e7]
+SCALED_REYNOLDS = [4e4, 7e4, 1e5, 1.5e5, 2.42e5, 4e5, 7e5, 1e6]
+GOETTINGEN_REYNOLDS = [1e5, 2e5, 5e5, 1e6, 2e6, 3e6, 4e6, 6e6]
+MODEL_SIZE = "xlarge"
+N_CRIT = 1.0
+STEP_DEG = 0.5
+PAST_STALL_DEG = 3.0
+LOWEST_CONFIDENCE = 0.85
+
+ASPECT_RATIO = 50
+CD_MAX = 1.11 + 0.018 * ASPECT_RATIO
+REVERSED_LIFT = 0.7
+
+WHEATLEY_SLOPE = 5.85
+WHEATLEY_DRAG = 0.0120
+
+# Circular cylinder: Reynolds number on the diameter and drag coefficient.
+CIRCLE = [
+    (1e2, 1.40), (1e3, 1.00), (3e3, 0.95), (1e4, 1.10), (3e4, 1.20), (1e5, 1.20), (2e5, 1.15),
+    (4e5, 0.30), (1e6, 0.35), (3.5e6, 0.70),
+]  # fmt: skip
+
+
+POST_STALL = f"""
+Post-stall method: Viterna & Corrigan (1982), "Fixed pitch rotor performance of large
+horizontal axis wind turbines", NASA CP-2230, from the match angle to 90 deg, with
+CDmax = 1.11 + 0.018 AR, AR = {ASPECT_RATIO}, so CDmax = {CD_MAX:.2f} (two-dimensional flat plate).
+From 90 deg to 180 deg - match as in NREL's AirfoilPrep and CCBlade: drag mirrored about
+90 deg, lift mirrored and times -{REVERSED_LIFT}; from there lift linear to 0 at 180 deg.
+Drag is held at or above the drag at zero lift. No data stand behind these ranges.
+""".strip()
+
+
+class TableError(Exception):
+    """A table that cannot be made; the message says why."""
+
+
+@dataclass
+class Block:
+    """Section coefficients at one Reynolds number for alpha (deg) from 0 to 180."""
+
+    reynolds: float
+    alpha: np.ndarray
+    cl: np.ndarray
+    cd: np.ndarray
+    match: float | None = None  # deg; beyond it the post-stall method holds
+    upside_down: "Block | None" = None  # gives the negative angles; if absent, mirrored
+
+
+def measured_points():
+    """Knight & Hefner, NACA TN 626 (1937), Tables V and VI: position, |alpha| (deg), cl, cd."""
+    with MEASURED_CSV.open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    alpha = np.array([float(row["alpha_inf_deg"]) for row in rows])
+    cl = np.sign(alpha) * np.array([float(row["CL"]) for row in rows])
+    cd = np.array([float(row["CD0"]) for row in rows])
+    return np.array([row["position"] for row in rows]), np.abs(alpha), cl, cd
+
+
+def fit_measured():
+    """Least-squares piecewise-linear curve through the measured points.
+
+    Returns cl and cd at KNOTS, and for each point |alpha| (deg) and the residuals of cl and cd.
+    A point beyond the last knot counts at that knot.
+    """
+    _, alpha, cl, cd = measured_points()
+    used = alpha <= FIT_LIMIT_DEG
+    alpha, cl, cd = alpha[used], cl[used], cd[used]
+    hats = np.array([np.interp(alpha, KNOTS, unit) for unit in np.eye(len(KNOTS))]).T
+    knot_cl = np.append(0.0, np.linalg.lstsq(hats[:, 1:], cl, rcond=None)[0])
+    knot_cd = np.linalg.lstsq(hats, cd, rcond=None)[0]
+    return knot_cl, knot_cd, alpha, hats @ knot_cl - cl, hats @ knot_cd - cd
+
+
+def rms(values):
+    return np.sqrt(np.mean(values**2))
+
+
+def viterna_cl(alpha, match, cl_match):
+    """Lift by Viterna & Corrigan, NASA CP-2230 (1982), for match <= alpha <= 90 (deg)."""
+    alpha, match = np.radians(alpha), np.radians(match)
+    a2 = (cl_match - CD_MAX * np.sin(match) * np.cos(match)) * np.sin(match) / np.cos(match) ** 2
+    return CD_MAX / 2 * np.sin(2 * alpha) + a2 * np.cos(alpha) ** 2 / np.sin(alpha)
+
+
+def viterna_cd(alpha, match, cd_match):
+    """Drag by Viterna & Corrigan, NASA CP-2230 (1982), for alpha <= 90 (deg)."""
+    alpha, match = np.radians(alpha), np.radians(match)
+    b2 = (cd_match - CD_MAX * np.sin(match) ** 2) / np.cos(match)
+    return CD_MAX * np.sin(alpha) ** 2 + b2 * np.cos(alpha)
+
+
+def extend(reynolds, alpha, cl, cd):
+    """Carry cl, cd given from 0 to the match angle alpha[-1] (deg) on to 180 deg.
+
+    Beyond 90 deg as in NREL's AirfoilPrep and CCBlade: drag mirrored about 90 deg, lift mirrored
+    and times -0.7 as far as 180 - match, from there linear to zero at 180. Drag nowhere falls below
+    the drag at zero lift.
+    """
+    match = alpha[-1]
+    fine = np.arange(np.floor(match) + 1, 30)
+    beyond = np.unique(np.concatenate([fine, np.arange(30.0, 181, 5), [180 - match]]))
+    folded = np.minimum(beyond, 180 - beyond)
+    cl_far = viterna_cl(np.maximum(folded, match), match, cl[-1])
+    cl_far[beyond > 90] *= -REVERSED_LIFT
+    run = beyond > 180 - match
+    cl_far[run] = -REVERSED_LIFT * cl[-1] * folded[run] / match
+    cd_far = np.maximum(viterna_cd(folded, match, cd[-1]), cd[0])
+    return Block(
+        reynolds,
+        np.concatenate([alpha, beyond]),
+        np.concatenate([cl, cl_far]),
+        np.concatenate([cd, cd_far]),
+        match,
+    )
+
+
+def neuralfoil_polar(alpha, reynolds, n_crit, x_trip=1.0, airfoil="naca0015"):
+    """cl, cd and confidence of a named airfoil by NeuralFoil at Mach 0; x_trip in chords."""
+    import aerosandbox
+    import neuralfoil
+
+    result = neuralfoil.get_aero_from_airfoil(
+        aerosandbox.Airfoil(airfoil),
+        alpha=alpha,
+        Re=reynolds,
+        n_crit=n_crit,
+        xtr_upper=x_trip,
+        xtr_lower=x_trip,
+        model_size=MODEL_SIZE,
+    )
+    return result["CL"], result["CD"], result["analysis_confidence"]
+
+
+def carried_on(reynolds, alpha, cl, cd, confidence):
+    """A polar to PAST_STALL_DEG beyond the first maximum of cl, then post-stall."""
+    stall = int(np.argmax(np.diff(cl) <= 0))
+    last = stall + round(PAST_STALL_DEG / STEP_DEG)
+    if confidence[: last + 1].min() < LOWEST_CONFIDENCE:
+        raise TableError(
+            f"At Re {reynolds:.0f} NeuralFoil's confidence falls below {LOWEST_CONFIDENCE} "
+            f"before the match angle of {alpha[last]} deg."
+        )
+    return extend(reynolds, alpha[: last + 1], cl[: last + 1], cd[: last + 1])
+
+
+def computed_block(reynolds, airfoil="naca0015"):
+    """A symmetric section by NeuralFoil."""
+    alpha = np.arange(0, 30 + STEP_DEG, STEP_DEG)
+    cl, cd, confidence = neuralfoil_polar(alpha, reynolds, N_CRIT, airfoil=airfoil)
+    cl[0] = 0.0
+    return carried_on(reynolds, alpha, cl, cd, confidence)
+
+
+def goettingen_block(reynolds):
+    """Goettingen 429 by NeuralFoil, each side of 0 deg with its own stall and match angle."""
+    half = np.arange(0, 30 + STEP_DEG, STEP_DEG)
+    alpha = np.concatenate([-half[:0:-1], half])
+    cl, cd, confidence = neuralfoil_polar(alpha, reynolds, N_CRIT, airfoil="goe429")
+    zero = len(half) - 1
+    block = carried_on(reynolds, half, cl[zero:], cd[zero:], confidence[zero:])
+    block.upside_down = carried_on(
+        reynolds, half, -cl[zero::-1], cd[zero::-1], confidence[zero::-1]
+    )
+    return block
+
+
+def distance(alpha, cl, cd):
+    """Distance of a candidate from the fit to the measurements at the alpha (deg) it is given at.
+
+    Returns a dict of mean and largest |dcl| and |dcd|.
+    """
+    knot_cl, knot_cd = fit_measured()[:2]
+    dcl = np.abs(cl - np.interp(alpha, KNOTS, knot_cl))
+    dcd = np.abs(cd - np.interp(alpha, KNOTS, knot_cd))
+    return {
+        "mean_dcl": dcl.mean(),
+        "max_dcl": dcl.max(),
+        "mean_dcd": dcd.mean(),
+        "max_dcd": dcd.max(),
+    }
+
+
+def lift_slope(alpha, cl):
+    """Lift slope (1/rad) over +-4 deg by least squares through the origin."""
+    near = alpha <= 4
+    return np.degrees((alpha[near] @ cl[near]) / (alpha[near] @ alpha[near]))
+
+
+def check_block(block):
+    """Refuse a block that breaks the format or is not physical."""
+    where = f"The block at Re {block.reynolds:.0f}"
+    if block.alpha[0] != 0 or block.alpha[-1] != 180 or np.any(np.diff(block.alpha) <= 0):
+        raise TableError(f"{where} does not rise strictly from 0 to 180 deg.")
+    if np.any(np.round(block.cd, 5) <= 0):
+        raise TableError(f"{where} has drag that is not positive.")
+    if block.cl[-1] != 0:
+        raise TableError(f"{where} has lift at 180 deg.")
+    other = block.upside_down
+    if other is None:
+        if block.cl[0] != 0:
+            raise TableError(f"{where} has lift at 0 deg although the section is symmetric.")
+        return
+    if other.alpha[0] != 0 or other.alpha[-1] != 180 or np.any(np.diff(other.alpha) <= 0):
+        raise TableError(f"{where} does not rise strictly from -180 to 0 deg.")
+    if np.any(np.round(other.cd, 5) <= 0):
+        raise TableError(f"{where} has drag that is not positive.")
+    if other.cl[0] != -block.cl[0] or other.cd[0] != block.cd[0]:
+        raise TableError(f"{where} has two values at 0 deg.")
+    if other.cl[-1] != 0 or other.cd[-1] != block.cd[-1]:
+        raise TableError(f"{where} has other values at -180 than at 180 deg.")
+
+
+def rows_of(block):
+    """Rows of a block: alpha, cl, cd."""
+    return list(zip(block.alpha, np.round(block.cl, 4), block.cd, strict=True))
+
+
+def render(name, header, blocks):
+    """Text of a .polar file."""
+    lines = [f"# {line}".rstrip() for line in header.strip().splitlines()]
+    lines += ["polar 1", f"name {name}"]
+    for block in blocks:
+        check_block(block)
+        lines += ["", f"reynolds {block.reynolds:.0f}"]
+        below = block.upside_down or block
+        if block.match is not None:
+            text = f"# post-stall method beyond {block.match:.1f} deg"
+            lines += [text if below is block else f"{text} and below {-below.match:.1f} deg"]
+        lines += ["# alpha_deg      cl       cd"]
+        for sign, half in ((-1, rows_of(below)[:0:-1]), (1, rows_of(block))):
+            # adding 0.0 turns a negative zero into zero
+            lines += [f"{sign * a:11.1f} {sign * cl + 0.0:8.4f} {cd:8.5f}" for a, cl, cd in half]
+    return "\n".join(lines) + "\n"
+
+
+def knight_hefner_file():
+    """naca0015-knight-hefner.polar"""
+    cl, cd, alpha, residual_cl, residual_cd = fit_measured()
+    below = alpha <= BELOW_STALL_DEG
+    scatter = f"cl {rms(residual_cl):.4f}, cd {rms(residual_cd):.5f}"
+    scatter_below = f"cl {rms(residual_cl[below]):.4f}, cd {rms(residual_cd[below]):.5f}"
+    header = f"""
+NACA 0015, measured. Made by airfoil-tables/make_tables.py; do not edit.
+Source: Knight, M. & Hefner, R. A. (1937), "Static Thrust Analysis of the Lifting
+Airscrew", NACA TN 626, Tables V and VI: airfoil 6 by 72 inch, Re {MEASURED_REYNOLDS:,},
+reduced to infinite aspect ratio by the authors.
+Method: positions A and B pooled, reflected by symmetry, least-squares piecewise-linear curve
+on the knots {", ".join(f"{k:.0f}" for k in KNOTS)} deg over the {len(alpha)} points with
+|alpha| <= {FIT_LIMIT_DEG} deg (a point beyond the last knot counts at that knot).
+No value is adjusted by hand. Rms residual: {scatter};
+over the {below.sum()} points with |alpha| <= {BELOW_STALL_DEG} deg: {scatter_below}.
+Match angle: {KNOTS[-1]:.0f} deg, the last knot.
+{POST_STALL}
+"""
+    block = extend(MEASURED_REYNOLDS, KNOTS, cl, cd)
+    return render("NACA 0015, Knight & Hefner 1937, Re 242,000", header, [block])
+
+
+def scaled_block(reynolds):
+    """The measured polar with its drag taken to another Reynolds number by computed ratios."""
+    cl, cd = fit_measured()[:2]
+    _, there, confidence = neuralfoil_polar(KNOTS, reynolds, N_CRIT)
+    _, here, _ = neuralfoil_polar(KNOTS, MEASURED_REYNOLDS, N_CRIT)
+    if confidence.min() < LOWEST_CONFIDENCE:
+        raise TableError(
+            f"At Re {reynolds:.0f} NeuralFoil's confidence falls below {LOWEST_CONFIDENCE} "
+            f"between 0 and {KNOTS[-1]:.0f} deg."
+        )
+    # What drag there is above that at the peak of the lift is that of pressure in stall, and stays.
+    peak = int(np.argmax(cl))
+    ratio = (there / here)[np.minimum(np.arange(len(KNOTS)), peak)]
+    return extend(reynolds, KNOTS, cl, cd + np.minimum(cd, cd[peak]) * (ratio - 1))
+
+
+def scaled_file():
+    """naca0015-knight-hefner-reynolds.polar"""
+    blocks = []
+    for reynolds in SCALED_REYNOLDS:
+        progress(f"  Re {reynolds:.0f}")
+        blocks.append(scaled_block(reynolds))
+    low, high = blocks[0], blocks[-1]
+    header = f"""
+NACA 0015, measured at Re {MEASURED_REYNOLDS:,}, its drag taken to other Reynolds numbers by computed
+ratios. Made by airfoil-tables/make_tables.py; do not edit.
+Measured: naca0015-knight-hefner.polar, which says how. Its block at Re {MEASURED_REYNOLDS:,} is here as it is there.
+Method: up to {KNOTS[-1]:.0f} deg, at each knot of the measured polar, its cd times the ratio of those that
+NeuralFoil {version("neuralfoil")} (P. Sharpe) computes at the other Reynolds number and at {MEASURED_REYNOLDS:,}, with the
+settings of naca0015.polar: model size {MODEL_SIZE}, Mach 0, free transition with n_crit {N_CRIT:.0f}.
+Beyond the measured peak of cl, at {KNOTS[np.argmax(low.cl[: len(KNOTS)])]:.0f} deg, only as much drag as there is at the peak is scaled,
+with the ratio there; the rest is pressure drag of the stall. NeuralFoil's own confidence is at
+least {LOWEST_CONFIDENCE} at the knots. No value is adjusted by hand.
+Drag at 0 deg: {low.cd[0]:.4f} at Re {low.reynolds:,.0f} to {high.cd[0]:.4f} at Re {high.reynolds:,.0f}.
+Lift is the measured one at all Reynolds numbers, also its peak: airfoil-tables/README.md says why.
+Match angle: {KNOTS[-1]:.0f} deg, the last knot.
+{POST_STALL}
+"""
+    return render("NACA 0015, Knight & Hefner 1937, drag by Reynolds number", header, blocks)
+
+
+def computed_file():
+    """naca0015.polar"""
+    blocks = []
+    for reynolds in REYNOLDS:
+        progress(f"  Re {reynolds:.0f}")
+        blocks.append(computed_block(reynolds))
+    block = blocks[REYNOLDS.index(MEASURED_REYNOLDS)]
+    compared = block.alpha <= KNOTS[-1]
+    far = distance(block.alpha[compared], block.cl[compared], block.cd[compared])
+    slope, measured_slope = lift_slope(block.alpha, block.cl), lift_slope(KNOTS, fit_measured()[0])
+    header = f"""
+NACA 0015, computed. Made by airfoil-tables/make_tables.py; do not edit.
+Method: NeuralFoil {version("neuralfoil")} (P. Sharpe), model size {MODEL_SIZE}, Mach 0,
+free transition with n_crit {N_CRIT:.0f} (free-stream turbulence about 2 % by Mack's relation),
+computed for alpha >= 0 and mirrored.
+Chosen by comparison with the measurements of Knight & Hefner (1937) at Re {MEASURED_REYNOLDS:,};
+the table of candidates is in airfoil-tables/README.md.
+Distance from naca0015-knight-hefner.polar at Re {MEASURED_REYNOLDS:,}, 0 to 12 deg:
+|dcl| mean {far["mean_dcl"]:.4f}, max {far["max_dcl"]:.4f};
+|dcd| mean {far["mean_dcd"]:.5f}, max {far["max_dcd"]:.5f};
+lift slope over +-4 deg {slope:.2f} per rad against {measured_slope:.2f} measured.
+The largest differences lie at 12 deg, where the measured section has stalled already.
+Match angle: {PAST_STALL_DEG:.0f} deg beyond the first maximum of cl; NeuralFoil's own confidence is
+at least {LOWEST_CONFIDENCE} up to there.
+{POST_STALL}
+"""
+    return render("NACA 0015, NeuralFoil", header, blocks)
+
+
+def naca0012_file():
+    """naca0012.polar"""
+    blocks = []
+    for reynolds in REYNOLDS:
+        progress(f"  Re {reynolds:.0f}")
+        blocks.append(computed_block(reynolds, "naca0012"))
+    block = blocks[REYNOLDS.index(2e6)]
+    slope = lift_slope(block.alpha, block.cl)
+    peak = float(block.cl[block.alpha == block.match - PAST_STALL_DEG][0])
+    header = f"""
+NACA 0012, computed. Made by airfoil-tables/make_tables.py; do not edit.
+Method: NeuralFoil {version("neuralfoil")} (P. Sharpe), model size {MODEL_SIZE}, Mach 0,
+free transition with n_crit {N_CRIT:.0f} (free-stream turbulence about 2 % by Mack's relation),
+computed for alpha >= 0 and mirrored. n_crit is assumed: it is that of naca0015.polar, chosen there
+by comparison with measurements; this table is compared with none.
+Re 2,000,000: lift slope over +-4 deg {slope:.2f} per rad, cd {block.cd[0]:.5f} at 0 deg,
+first peak of cl {peak:.2f}.
+Match angle: {PAST_STALL_DEG:.0f} deg beyond the first maximum of cl; NeuralFoil's own confidence is
+at least {LOWEST_CONFIDENCE} up to there.
+{POST_STALL}
+"""
+    return render("NACA 0012, NeuralFoil", header, blocks)
+
+
+def goettingen_numbers(block):
+    """A sentence on lift slope, zero lift, drag and largest lift of a block."""
+    other = block.upside_down
+    alpha = np.concatenate([-other.alpha[:0:-1], block.alpha])
+    cl = np.concatenate([-other.cl[:0:-1], block.cl])
+    near = np.abs(alpha) <= 4
+    slope, offset = np.polyfit(alpha[near], cl[near], 1)
+    peaks = [float(b.cl[b.alpha == b.match - PAST_STALL_DEG][0]) for b in (block, other)]
+    return (
+        f"Re {block.reynolds:,.0f}: lift slope over +-4 deg {np.degrees(slope):.2f} per rad, "
+        f"zero lift at {-offset / slope:.2f} deg,\ncd {block.cd[0]:.5f} at 0 deg, "
+        f"first peaks of cl {peaks[0]:.2f} and {-peaks[1]:.2f}."
+    )
+
+
+def goettingen_file():
+    """goettingen429.polar"""
+    blocks = []
+    for reynolds in GOETTINGEN_REYNOLDS:
+        progress(f"  Re {reynolds:.0f}")
+        blocks.append(goettingen_block(reynolds))
+    numbers = [goettingen_numbers(blocks[GOETTINGEN_REYNOLDS.index(re)]) for re in (2e6, 4e6)]
+    header = f"""
+Goettingen 429, computed; no measured table of this section was found. Made by
+airfoil-tables/make_tables.py; do not edit.
+Coordinates: GOE 429 of the UIUC airfoil database (33 points, four decimals) as in AeroSandbox
+{version("aerosandbox")}: 11.4 % thick, meant to be symmetric; its camber of 0.2 % is kept.
+Method: NeuralFoil {version("neuralfoil")} (P. Sharpe), model size {MODEL_SIZE}, Mach 0,
+free transition with n_crit {N_CRIT:.0f} (free-stream turbulence about 2 % by Mack's relation),
+computed for positive and negative angles. n_crit is assumed: it is that of naca0015.polar; the
+reasons are in airfoil-tables/README.md.
+{numbers[0]}
+{numbers[1]}
+For comparison, assumed by Wheatley (1934), NACA Rep. 487, p. 13: lift slope 5.85 per rad ("a good
+average for most airfoils", p. 12), mean drag coefficient 0.0120, one and a half times the least.
+Match angles: {PAST_STALL_DEG:.0f} deg beyond the first maximum of cl on either side;
+NeuralFoil's own confidence is at least {LOWEST_CONFIDENCE} up to there.
+{POST_STALL}
+"""
+    return render("Goettingen 429, NeuralFoil", header, blocks)
+
+
+def wheatley_file():
+    """wheatley-1934.polar"""
+    header = """
+The blade section of Wheatley's analysis of autogiro rotors. Made by airfoil-tables/make_tables.py; do
+not edit.
+Source: Wheatley, J. B. (1934), NACA Report 487: lift in proportion to the angle of attack with the
+slope 5.85 per rad, "a good average for most airfoils" (pp. 12 and 13), the same at 180 deg as at 0
+(p. 6), mean drag coefficient 0.0120, which is 1.5 times the smallest of Goettingen 429 (p. 13).
+Ours: cl = 5.85/2 sin(2 alpha), which has these slopes and no stall; drag is the same at all angles.
+For rotors whose blades hardly stall; the Reynolds number is without meaning.
+"""
+    alpha = np.arange(0.0, 181.0, 1.0)
+    cl = 0.5 * WHEATLEY_SLOPE * np.sin(2.0 * np.radians(alpha))
+    cl[-1] = 0.0  # but for rounding
+    blocks = [Block(2e6, alpha, cl, np.full(len(alpha), WHEATLEY_DRAG))]
+    return render("linear section of NACA Report 487", header, blocks)
+
+
+def circle_file():
+    """circle.polar"""
+    header = """
+Circular cylinder, for blade roots. Made by airfoil-tables/make_tables.py; do not edit.
+Reynolds number on the diameter, drag coefficient on the frontal area, smooth surface, no lift.
+Source: Wieselsberger, C. (1921), Physikalische Zeitschrift 22, 321-328, as plotted in
+Schlichting, Boundary-Layer Theory, and Hoerner, Fluid-Dynamic Drag (1965); above Re 8e5
+Roshko, A. (1961), Journal of Fluid Mechanics 10, 345-356.
+Approximate: round values of the published curves, about +-10 % outside the drag crisis. Between
+Re 2e5 and 1e6 drag depends on roughness and turbulence and may differ by a factor of two.
+"""
+    ends = np.array([0.0, 180.0])
+    blocks = [Block(re, ends, np.zeros(2), np.full(2, cd)) for re, cd in CIRCLE]
+    return render("circular cylinder", header, blocks)
+
+
+FILES = {
+    "naca0015-knight-hefner.polar": knight_hefner_file,
+    "naca0015-knight-hefner-reynolds.polar": scaled_file,
+    "naca0015.polar": computed_file,
+    "naca0012.polar": naca0012_file,
+    "goettingen429.polar": goettingen_file,
+    "wheatley-1934.polar": wheatley_file,
+    "circle.polar": circle_file,
+}
+
+
+def progress(text):
+    """Tell on the error stream how far the work is."""
+    print(text, file=sys.stderr, flush=True)
+
+
+def write_files():
+    """Write every table under a temporary name and rename it."""
+    OUTPUT.mkdir(parents=True, exist_ok=True)
+    for name, make in FILES.items():
+        progress(name)
+        temporary = OUTPUT / (name + ".tmp")
+        temporary.write_bytes(make().encode("utf-8"))
+        os.replace(temporary, OUTPUT / name)
+    progress(f"Written to {OUTPUT}.")
+
+
+def check_files():
+    """Make every table anew and compare it with the file in the repository."""
+    stale = []
+    for name, make in FILES.items():
+        progress(name)
+        path = OUTPUT / name
+        if not path.exists() or path.read_bytes() != make().encode("utf-8"):
+            stale.append(name)
+    if stale:
+        sys.exit(
+            f"These tables are missing or differ from what the script makes: {', '.join(stale)}."
+        )
+    progress("All tables agree.")
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Make the airfoil tables of the rotor model.")
+    parser.add_argument(
+        "--check",
+        action="store_true",
+        help="make the tables anew, compare them with the files in the repository, write nothing",
+    )
+    arguments = parser.parse_args()
+    try:
+        if arguments.check:
+            check_files()
+        else:
+            write_files()
+    except (TableError, OSError) as error:
+        sys.exit(f"The airfoil tables were not made: {error}")
+
+
+if __name__ == "__main__":
+    main()
