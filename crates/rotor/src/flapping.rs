@@ -21,29 +21,12 @@
 //! over a turn. The weight of the blades belongs to the vehicle's.
 
 use super::{
-    Operation,
-    disc::{DiscFlow, Place},
+    disc::{BladePosition, DiscFlow},
+    operating_point::OperatingPoint,
     scalar::Scalar,
 };
 use core::f64::consts::PI;
 use nalgebra::Vector3;
-
-/// How one blade flaps: angle above the plane perpendicular to the shaft, rad, and its rate, rad/s.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Flap<S = f64> {
-    pub angle: S,
-    pub rate: S,
-}
-
-impl<S: Scalar> Flap<S> {
-    /// Of a blade that does not flap, at an angle, rad.
-    pub fn rigid(angle: f64) -> Self {
-        Self {
-            angle: S::constant(angle),
-            rate: S::zero(),
-        }
-    }
-}
 
 /// How the blades are held. Blades that do not flap are rigid at the precone angle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -92,17 +75,18 @@ impl Freedom {
         &self,
         hinge: &Hinge,
         flow: &DiscFlow<S>,
-        place: &Place<S>,
+        position: &BladePosition<S>,
         action: &Action<S>,
     ) -> S {
-        let (sin, cos) = (place.flap_sin, place.flap_cos);
-        let (radial, tangential) = flow.hub_rates(place.azimuth);
+        let (sin, cos) = (position.flap_sin, position.flap_cos);
+        let (radial, tangential) = flow.hub_rates(position.azimuth);
         let rotation = flow.rotation;
         let first = self.first_moment();
         let offset_moment = hinge.offset * first;
-        let outwards = -action.gravity.x * place.azimuth.cos - action.gravity.y * place.azimuth.sin;
+        let outwards =
+            -action.gravity.x * position.azimuth.cos - action.gravity.y * position.azimuth.sin;
         let weight = (cos * action.gravity.z - sin * outwards) * first;
-        let spring = action.spring * (place.flap.angle - hinge.precone);
+        let spring = action.spring * (position.flap.angle - hinge.precone);
         let turning = -flow.speed * radial * (cos * offset_moment + self.inertia);
         let across = (rotation * cos - radial * sin)
             * (radial * offset_moment + (radial * cos + rotation * sin) * self.inertia);
@@ -117,18 +101,18 @@ impl Freedom {
         &self,
         hinge: &Hinge,
         flow: &DiscFlow<S>,
-        place: &Place<S>,
+        position: &BladePosition<S>,
         action: &Action<S>,
     ) -> S {
-        let (sin, cos) = (place.flap_sin, place.flap_cos);
-        let (radial, tangential) = flow.hub_rates(place.azimuth);
-        let rate = place.flap.rate;
+        let (sin, cos) = (position.flap_sin, position.flap_cos);
+        let (radial, tangential) = flow.hub_rates(position.azimuth);
+        let rate = position.flap.rate;
         let first = self.first_moment();
-        let spring = action.spring * (place.flap.angle - hinge.precone);
+        let spring = action.spring * (position.flap.angle - hinge.precone);
         if hinge.offset == 0.0 {
             return spring - action.moment;
         }
-        let acceleration = self.acceleration(hinge, flow, place, action);
+        let acceleration = self.acceleration(hinge, flow, position, action);
         // beta'' and beta'^2, Coriolis, w' x r, and w x (w x r), summed over the blade's mass.
         let out = cos * first + hinge.offset * self.mass();
         let up = sin * first;
@@ -139,21 +123,21 @@ impl Freedom {
         spring - action.moment - inertia * hinge.offset
     }
 
-    /// An estimate of how fast a blade swings and comes to rest, 1/s, with a lift slope of 2 pi: `chord` (m)
-    /// the largest of the blade, `speed` (m/s) that of the air at its tip.
+    /// An estimate of how fast a blade swings and comes to rest, 1/s, with a lift slope of 2 pi: `chord` (m) is the largest
+    /// of the blade, `speed` (m/s) that of the air at its tip.
     pub fn fastest_rate(
         &self,
         hinge: &Hinge,
-        operation: &Operation,
+        point: &OperatingPoint,
         flow: &DiscFlow,
         chord: f64,
         speed: f64,
     ) -> f64 {
         let first = self.first_moment();
-        let per_speed = PI * operation.air.density * speed * chord * self.length * self.length;
-        let stiffness = operation.hinge_spring
+        let per_speed = PI * point.air.density * speed * chord * self.length * self.length;
+        let stiffness = point.hinge_spring
             + flow.rotation * flow.rotation * (self.inertia + hinge.offset * first)
-            + operation.gravity.norm() * first
+            + point.gravity.norm() * first
             + self.pitch_flap.abs() * per_speed * speed / 2.0;
         libm::sqrt(stiffness / self.inertia) + per_speed * self.length / 3.0 / self.inertia
     }

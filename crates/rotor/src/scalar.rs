@@ -75,7 +75,7 @@ pub trait Scalar:
     /// Whether it lies above `limit`, or at it and about to rise above.
     fn is_above(self, limit: f64) -> bool;
     /// Whether the magnitude is at most `most` and does not change.
-    fn is_nothing(self, most: f64) -> bool;
+    fn is_negligible(self, most: f64) -> bool;
     fn sin(self) -> Self;
     fn cos(self) -> Self;
     fn acos(self) -> Self;
@@ -129,7 +129,7 @@ impl Scalar for f64 {
     fn is_above(self, limit: f64) -> bool {
         self > limit
     }
-    fn is_nothing(self, most: f64) -> bool {
+    fn is_negligible(self, most: f64) -> bool {
         f64::abs(self) <= most
     }
     fn sin(self) -> Self {
@@ -194,8 +194,8 @@ impl Scalar for Dual64 {
     fn is_above(self, limit: f64) -> bool {
         self.re > limit || (self.re == limit && self.eps > 0.0)
     }
-    fn is_nothing(self, most: f64) -> bool {
-        self.re.is_nothing(most) && self.eps == 0.0
+    fn is_negligible(self, most: f64) -> bool {
+        self.re.is_negligible(most) && self.eps == 0.0
     }
     fn sin(self) -> Self {
         chain(self, libm::sin(self.re), libm::cos(self.re))

@@ -1,28 +1,29 @@
-//! What a rotor remembers: the azimuth, its inflow and the flapping of its blades.
+//! The states of a rotor: azimuth, speed, inflow and flapping.
 
 use super::{
-    flapping::Flap,
-    inflow::{Field, peters_he},
+    disc::Flap,
+    inflow::{InflowStates, MAX_STATES},
     scalar::Scalar,
 };
 
-/// Most blades that can flap.
-pub const MOST_FLAPPING_BLADES: usize = 8;
+/// Maximum number of blades that can flap.
+pub const MAX_FLAPPING_BLADES: usize = 8;
 
-/// Most states that an inflow model has.
-pub const MOST_INFLOW_STATES: usize = peters_he::MOST_STATES;
+/// Maximum number of states of an inflow model.
+pub const MAX_INFLOW_STATES: usize = MAX_STATES;
 
-/// The states of a rotor, or how fast they change. What the models do not use stays 0.
+/// The states of a rotor, or their rates of change per second. States that the models do not have stay 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct State<S = f64> {
-    /// Of blade 1 from the tail in the turning sense, rad; it counts on over the turns. Blade k is k - 1
-    /// steps of 2 pi/N ahead.
+    /// Azimuth of blade 1 from the tail in the turning sense, rad; it grows over the revolutions. Blade k is (k - 1) 2 pi/N
+    /// ahead.
     pub azimuth: S,
-    /// Of the rotor against the hub while a torque drives it, rad/s.
+    /// Rotor speed against the hub while a torque drives it, rad/s.
     pub speed: S,
-    /// m/s, in the axes of the hub (mirrored for a clockwise rotor).
-    pub inflow: [S; MOST_INFLOW_STATES],
-    pub flaps: [Flap<S>; MOST_FLAPPING_BLADES],
+    /// Inflow states, m/s, in the axes of the hub (mirrored for a clockwise rotor).
+    pub inflow: InflowStates<S>,
+    /// Flap angles and rates of the blades.
+    pub flaps: [Flap<S>; MAX_FLAPPING_BLADES],
 }
 
 impl<S: Scalar> Default for State<S> {
@@ -31,8 +32,8 @@ impl<S: Scalar> Default for State<S> {
         Self {
             azimuth: S::zero(),
             speed: S::zero(),
-            inflow: [S::zero(); MOST_INFLOW_STATES],
-            flaps: [Flap::rigid(0.0); MOST_FLAPPING_BLADES],
+            inflow: [S::zero(); MAX_INFLOW_STATES],
+            flaps: [Flap::rigid(0.0); MAX_FLAPPING_BLADES],
         }
     }
 }
@@ -51,7 +52,7 @@ impl State {
 }
 
 impl<S: Scalar> State<S> {
-    /// The state with a function of each of its numbers.
+    /// The state with `function` applied to each of its numbers.
     pub fn map<T: Scalar>(&self, function: impl Fn(S) -> T) -> State<T> {
         State {
             azimuth: function(self.azimuth),
@@ -77,15 +78,5 @@ impl<S: Scalar> State<S> {
             flap.rate += factor * rate.rate;
         }
         sum
-    }
-
-    /// The first three states of the inflow as a linear distribution.
-    pub fn field(&self) -> Field<S> {
-        let [mean, cosine, sine, ..] = self.inflow;
-        Field { mean, cosine, sine }
-    }
-
-    pub fn set_field(&mut self, field: &Field<S>) {
-        self.inflow[..3].copy_from_slice(&field.to_array());
     }
 }

@@ -1,54 +1,55 @@
-//! The cone of flapping blades as the block's outputs have it.
+//! The cone of the blades.
 
-use super::{
-    Operation, Rotor, State, TipPath, flapping::Flap, loads::Sums, scalar::Scalar, scene::Scene,
-};
+use super::{disc::Flap, evaluation::Evaluation, loads::DiscLoads, scalar::Scalar};
 use core::f64::consts::PI;
 
 /// Lean of the tip path beyond which one or two blades count as swinging, rad.
-const LARGEST_LEAN: f64 = 1.0;
+const MAX_LEAN: f64 = 1.0;
 
-impl<S: Scalar> Rotor<S> {
-    /// The cone of the blades, in the axes of the hub.
+/// The cone of the blades: beta = coning - longitudinal cos psi - lateral sin psi, psi from the tail, rad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TipPath<S = f64> {
+    /// a0.
+    pub coning: S,
+    /// a1: positive tips the path back.
+    pub longitudinal: S,
+    /// b1: positive lowers the side at psi = 90 deg.
+    pub lateral: S,
+}
+
+impl<S: Scalar> TipPath<S> {
+    /// The cone of the blades in the hub frame.
     ///
-    /// From three blades on, the mean of the flap angles and twice their means with cos psi and sin psi (the
-    /// multiblade coordinates, Johnson 1980, ch. 8.4). One or two blades say too little: for each, beta =
-    /// a0 - a1 cos psi - b1 sin psi with its first two derivatives gives the cone, and the mean is taken. Blades
-    /// that swing too fast for that are on no cone: their angle counts as coning.
-    pub(super) fn tip_path(
-        &self,
-        operation: &Operation<S>,
-        state: &State<S>,
-        scene: &Scene<S>,
-        sums: &Sums<S>,
-    ) -> TipPath<S> {
-        let Some(freedom) = &self.models.hinge.freedom else {
-            return TipPath {
-                coning: S::constant(self.models.hinge.precone),
-                longitudinal: S::zero(),
-                lateral: S::zero(),
-            };
-        };
-        let count = scene.places.len() as f64;
-        let mut path = TipPath {
-            coning: S::zero(),
+    /// From three blades on, the mean of the flap angles and twice their means with cos psi and sin psi (the multiblade
+    /// coordinates, Johnson 1980, ch. 8.4). One or two flap angles do not define a cone: for each, beta = a0 - a1 cos psi -
+    /// b1 sin psi with its first two derivatives does, and the mean over the blades is taken. Blades that swing too fast for
+    /// that are on no cone; their flap angle counts as coning.
+    pub(crate) fn new(evaluation: &Evaluation<S>, loads: &DiscLoads<S>) -> Self {
+        let hinge = &evaluation.rotor.models().hinge;
+        let mut path = Self {
+            coning: S::constant(hinge.precone),
             longitudinal: S::zero(),
             lateral: S::zero(),
         };
-        for (k, place) in scene.places.iter().enumerate() {
-            let psi = state.azimuth + 2.0 * PI * k as f64 / count;
+        let Some(freedom) = evaluation.freedom else {
+            return path;
+        };
+        path.coning = S::zero();
+        let count = evaluation.positions.len() as f64;
+        let speed = evaluation.point.speed;
+        for (k, position) in evaluation.positions.iter().enumerate() {
+            let psi = evaluation.state.azimuth + 2.0 * PI * k as f64 / count;
             let (sin, cos) = (psi.sin(), psi.cos());
-            let Flap { angle, rate } = place.flap;
+            let Flap { angle, rate } = position.flap;
             let (coning, longitudinal, lateral) = if count > 2.0 {
                 (angle, angle * -2.0 * cos, angle * -2.0 * sin)
             } else {
-                let action = self.action(operation, scene, sums.hinge_moments[k]);
-                let hinge = &self.models.hinge;
-                let second = freedom.acceleration(hinge, &scene.flow, place, &action)
-                    / (operation.speed * operation.speed);
-                let first = rate / operation.speed;
-                // Not so where the rotor stands still, either.
-                if first.hypot(second).value() < LARGEST_LEAN {
+                let action = evaluation.action(loads.hinge_moments[k]);
+                let acceleration = freedom.acceleration(hinge, &evaluation.flow, position, &action);
+                let second = acceleration / (speed * speed);
+                let first = rate / speed;
+                // A stopped rotor takes the other branch, too: its derivatives are infinite or not a number.
+                if first.hypot(second).value() < MAX_LEAN {
                     (
                         angle + second,
                         second * cos + first * sin,

@@ -55,10 +55,11 @@
 //! of the bracket the mean flow W vanishes; where strong flow along a slow disc leaves the sign
 //! of R unchanged even there, that end is taken: the rotor then brings its own air to rest.
 
-use super::{Descent, Induced, ground::Ground};
+use super::Momentum;
 use crate::{
-    disc::{DiscFlow, Place},
+    disc::{BladePosition, DiscFlow},
     element::Element,
+    induced::Induced,
     root::{End, RootError, bracketed},
     scalar::Scalar,
 };
@@ -109,40 +110,40 @@ fn axial_residual<S: Scalar>(
     factor * sin_inflow.abs() * induced_angle.sin() * 4.0 - lift * across * element.solidity()
 }
 
-/// The residual R(phi) of the mean over places, dimensionless.
+/// The residual R(phi) of the mean over blade positions, dimensionless.
 fn mean_residual<S: Scalar>(
     element: &Element<S>,
     flow: &DiscFlow<S>,
-    places: &[Place<S>],
-    medium: Medium<S>,
+    positions: &[BladePosition<S>],
+    momentum: &Momentum<S>,
     undisturbed: Undisturbed<S>,
     inflow_angle: S,
 ) -> S {
     let far = induced(undisturbed, inflow_angle);
-    let induced = medium.at_the_blades(flow, far);
+    let induced = momentum.at_the_blades(flow.edgewise, far.axial, far);
     let (sin_inflow, cos_inflow) = (inflow_angle.sin(), inflow_angle.cos());
     let speed = undisturbed.speed;
     let mut sum = S::zero();
-    for place in places {
-        let meets = flow.meets(element.radius, place);
+    for position in positions {
+        let section = flow.at_section(element.radius, position);
         // In units of U, whose square may be no number.
         let (in_plane, through) = (
-            (meets.in_plane - induced.swirl) / speed,
-            (meets.through + meets.flap_cos * induced.axial) / speed,
+            (section.in_plane - induced.swirl) / speed,
+            (section.through + section.flap_cos * induced.axial) / speed,
         );
         let square = in_plane * in_plane + through * through;
         let local_speed = square.sqrt();
-        let alpha = element.pitch + meets.pitch - through.atan2(in_plane);
+        let alpha = element.pitch + section.pitch - through.atan2(in_plane);
         // W_psi^2 cos(phi_psi - phi) = W_psi (W_psi cos phi_psi cos phi + W_psi sin phi_psi sin phi),
         // of which the first stands on the flapping blade.
-        let axial = meets.flap_cos * in_plane * cos_inflow;
+        let axial = section.flap_cos * in_plane * cos_inflow;
         let projected = local_speed * (axial + through * sin_inflow);
         sum += element.lift_coefficient(alpha, local_speed * speed) * projected;
     }
-    let lift = sum / places.len() as f64;
-    let resultant = medium.descent.speed(flow.edgewise, flow.climb, far.axial) / speed;
+    let lift = sum / positions.len() as f64;
+    let resultant = momentum.descent.speed(flow.edgewise, flow.climb, far.axial) / speed;
     let induced_part = (inflow_angle - undisturbed.angle).sin();
-    let factor = element.tip_loss_factor(medium.wake_sine(flow, undisturbed, inflow_angle));
+    let factor = element.tip_loss_factor(wake_sine(flow, momentum, undisturbed, inflow_angle));
     factor * 4.0 * resultant * induced_part - lift * element.solidity()
 }
 
@@ -155,51 +156,29 @@ fn induced<S: Scalar>(undisturbed: Undisturbed<S>, inflow_angle: S) -> Induced<S
     }
 }
 
-/// What the air and the ground around the rotor do to momentum theory.
-#[derive(Clone, Copy)]
-struct Medium<S> {
-    descent: Descent,
-    ground: Ground<S>,
+/// Sine of the angle at which the wake leaves the disc, for Prandtl's F: |sin phi| in momentum theory.
+fn wake_sine<S: Scalar>(
+    flow: &DiscFlow<S>,
+    momentum: &Momentum<S>,
+    undisturbed: Undisturbed<S>,
+    inflow_angle: S,
+) -> S {
+    let axial = induced(undisturbed, inflow_angle).axial;
+    if momentum.is_plain(flow.climb, axial) {
+        return inflow_angle.sin();
+    }
+    let speed = undisturbed.speed * (inflow_angle - undisturbed.angle).cos().abs();
+    momentum.wake_sine_in_descent(flow.climb, axial, speed)
 }
 
-impl<S: Scalar> Medium<S> {
-    /// Sine of the angle at which the wake leaves the disc, for Prandtl's F: |sin phi| in momentum theory. In
-    /// descent the air that takes up momentum is V', not |V_c + v|, which goes through 0 there: F would go
-    /// through 1 in a spike at phi = 0, and R would fold.
-    fn wake_sine(&self, flow: &DiscFlow<S>, undisturbed: Undisturbed<S>, inflow_angle: S) -> S {
-        let sin = inflow_angle.sin();
-        let axial = induced(undisturbed, inflow_angle).axial;
-        if self.descent == Descent::Momentum || (flow.climb * axial).value() >= 0.0 {
-            return sin;
-        }
-        let speed = undisturbed.speed * (inflow_angle - undisturbed.angle).cos().abs();
-        let leaves = self.descent.speed(S::zero(), flow.climb, axial);
-        if leaves.value() < speed.value() {
-            leaves / speed
-        } else {
-            S::one()
-        }
-    }
-
-    /// What is left near the ground of what would be induced far from it.
-    fn at_the_blades(&self, flow: &DiscFlow<S>, far: Induced<S>) -> Induced<S> {
-        let left = self.ground.factor(flow.edgewise, far.axial);
-        Induced {
-            axial: left * far.axial,
-            swirl: left * far.swirl,
-        }
-    }
-}
-
-/// What an element's annulus induces in a flow, averaged over `places`.
+/// What an element's annulus induces in a flow, averaged over the blade positions.
 ///
 /// Fails only if the airfoil's or the flow's numbers are not finite, or so large that they overflow.
 pub fn solve<S: Scalar>(
     element: &Element<S>,
     flow: &DiscFlow<S>,
-    places: &[Place<S>],
-    descent: Descent,
-    ground: Ground<S>,
+    positions: &[BladePosition<S>],
+    momentum: &Momentum<S>,
 ) -> Result<Answer<S>, RootError> {
     let rotation = flow.rotation * element.radius;
     let undisturbed = Undisturbed {
@@ -209,14 +188,12 @@ pub fn solve<S: Scalar>(
     if undisturbed.speed.value() == 0.0 {
         return Ok(Answer::none());
     }
-    let medium = Medium { descent, ground };
-    let equation = |phi: S| mean_residual(element, flow, places, medium, undisturbed, phi);
-    let inflow_angle = if is_one_for_all(flow, places) {
+    let equation = |phi: S| mean_residual(element, flow, positions, momentum, undisturbed, phi);
+    let inflow_angle = if is_one_for_all(flow, positions) {
         // At phi0 nothing is induced, and R is the lift alone.
         let lift = element.lift_coefficient(element.pitch - undisturbed.angle, undisturbed.speed);
         let start = lift * -element.solidity();
-        let is_momentum = descent == Descent::Momentum || (lift * flow.climb).value() >= 0.0;
-        if is_momentum && ground.is_far() {
+        if momentum.is_plain(flow.climb, lift) && momentum.ground.is_far() {
             let equation = |phi: S| axial_residual(element, undisturbed, phi);
             inflow_angle(undisturbed.angle, start, element.pitch, equation)?
         } else {
@@ -226,17 +203,19 @@ pub fn solve<S: Scalar>(
         let start = equation(undisturbed.angle);
         inflow_angle(undisturbed.angle, start, element.pitch, equation)?
     };
-    let induced = medium.at_the_blades(flow, induced(undisturbed, inflow_angle));
-    let factor = element.tip_loss_factor(medium.wake_sine(flow, undisturbed, inflow_angle));
+    let far = induced(undisturbed, inflow_angle);
+    let induced = momentum.at_the_blades(flow.edgewise, far.axial, far);
+    let factor = element.tip_loss_factor(wake_sine(flow, momentum, undisturbed, inflow_angle));
     Ok(Answer {
         induced,
         mean_axial: factor * induced.axial,
     })
 }
 
-/// Whether a single place without flapping stands for all.
-fn is_one_for_all<S: Scalar>(flow: &DiscFlow<S>, places: &[Place<S>]) -> bool {
-    matches!(places, [place] if place.flap_sin.is_nothing(0.0)) && flow.is_axisymmetric()
+/// Whether a single position without flapping stands for all.
+fn is_one_for_all<S: Scalar>(flow: &DiscFlow<S>, positions: &[BladePosition<S>]) -> bool {
+    matches!(positions, [position] if position.flap_sin.is_negligible(0.0))
+        && flow.is_axisymmetric()
 }
 
 /// The inflow angle, rad, with the residual `start` at phi0 = `undisturbed`; `pitch` of the element.
@@ -255,7 +234,7 @@ fn inflow_angle<S: Scalar>(
     })?;
     // Nothing induced, or the mean flow brought to rest: the angle keeps its distance to phi0.
     let distance = found - undisturbed.value();
-    if start.is_nothing(0.0) || f64::abs(distance) > FRAC_PI_2 - FAR_END {
+    if start.is_negligible(0.0) || f64::abs(distance) > FRAC_PI_2 - FAR_END {
         return Ok(S::at_root(found, |phi| phi - undisturbed - distance));
     }
     Ok(S::at_root(found, equation))
@@ -306,10 +285,9 @@ pub(super) mod tests {
     use crate::{
         airfoil::{Airfoil, Lift, SectionModel, Similarity},
         compressibility::Compressibility,
-        disc::Azimuth,
+        disc::{Azimuth, Flap},
         element::Section,
-        flapping::Flap,
-        inflow::ground::GroundEffect,
+        inflow::{Descent, Ground, GroundEffect},
         tip_loss::TipLoss,
     };
     use num_dual::Dual64;
@@ -372,13 +350,17 @@ pub(super) mod tests {
                 sin: S::constant(0.6),
                 cos: S::constant(0.8),
             };
-            let place = Place::new(azimuth, Flap::rigid(0.0), S::zero());
+            let position = BladePosition::new(azimuth, Flap::rigid(0.0), S::zero());
             let element = element(airfoil, 0.1, pitch);
             let ground = Ground {
                 effect: GroundEffect::None,
                 height_ratio: S::one(),
             };
-            let answer = solve(&element, &flow, &[place], Descent::Measured, ground);
+            let momentum = Momentum {
+                descent: Descent::Measured,
+                ground,
+            };
+            let answer = solve(&element, &flow, &[position], &momentum);
             answer.unwrap().induced.axial
         }
         let airfoil = airfoil();
@@ -427,15 +409,12 @@ pub(super) mod tests {
                     climb,
                     ..DiscFlow::default()
                 };
-                let anywhere = Place::new(Default::default(), Default::default(), 0.0);
-                let answer = solve(
-                    &element,
-                    &flow,
-                    &[anywhere],
-                    Descent::Momentum,
-                    Ground::default(),
-                )
-                .unwrap();
+                let anywhere = BladePosition::new(Default::default(), Default::default(), 0.0);
+                let momentum = Momentum {
+                    descent: Descent::Momentum,
+                    ground: Ground::default(),
+                };
+                let answer = solve(&element, &flow, &[anywhere], &momentum).unwrap();
                 let is_windmill = climb + answer.induced.axial < -1e-6;
                 changes += u32::from(is_windmill != was_windmill);
                 was_windmill = is_windmill;

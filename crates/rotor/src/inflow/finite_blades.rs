@@ -24,10 +24,11 @@
 //! in the other models, and in descent what `descent` has for it: without the resultant the inflow would
 //! stay that of hover at any speed. A rotor at rest induces nothing.
 
-use super::{Descent, Induced, annulus::Answer, ground::Ground, uniform};
+use super::{Momentum, annulus::Answer, uniform};
 use crate::{
-    disc::{DiscFlow, Encounter},
+    disc::{DiscFlow, SectionFlow},
     element::Element,
+    induced::Induced,
     root::RootError,
     scalar::Scalar,
 };
@@ -38,17 +39,16 @@ use core::f64::consts::PI;
 /// `flow`: of the disc, of which the rotor speed and the speed along the disc count here.
 pub fn solve<S: Scalar>(
     element: &Element<S>,
-    meets: &Encounter<S>,
+    section: &SectionFlow<S>,
     flow: &DiscFlow<S>,
-    descent: Descent,
-    ground: Ground<S>,
+    momentum: &Momentum<S>,
 ) -> Result<Answer<S>, RootError> {
-    let scale = (meets.in_plane.hypot(meets.through) + flow.edgewise).value();
+    let scale = (section.in_plane.hypot(section.through) + flow.edgewise).value();
     if scale == 0.0 {
         return Ok(Answer::none());
     }
-    let pitch = element.pitch + meets.pitch;
-    let forward = if meets.in_plane.value() < 0.0 {
+    let pitch = element.pitch + section.pitch;
+    let forward = if section.in_plane.value() < 0.0 {
         -1.0
     } else {
         1.0
@@ -56,36 +56,32 @@ pub fn solve<S: Scalar>(
     let strength = flow.rotation.abs() * element.blades * element.chord * forward / (4.0 * PI);
     // What is left of v near the ground, and the flow that meets the section with it.
     let met = |v: S| {
-        let axial = ground.factor(flow.edgewise, v) * v;
-        let through = meets.through + meets.flap_cos * axial;
-        (axial, through, meets.in_plane.hypot(through))
+        let axial = momentum
+            .at_the_blades(flow.edgewise, v, Induced::axial(v))
+            .axial;
+        let through = section.through + section.flap_cos * axial;
+        (axial, through, section.in_plane.hypot(through))
     };
     // As in the annuli, the wake leaves with the air that takes up momentum.
     let factor = |v: S, through: S, speed: S| {
-        let is_descent = descent != Descent::Momentum && (meets.through * v).value() < 0.0;
-        let leaves = if is_descent {
-            let leaves = descent.speed(S::zero(), meets.through, through - meets.through);
-            if leaves.value() < speed.value() {
-                leaves
-            } else {
-                speed
-            }
+        let sine = if momentum.is_plain(section.through, v) {
+            through / speed
         } else {
-            through
+            momentum.wake_sine_in_descent(section.through, through - section.through, speed)
         };
-        element.tip_loss_factor(leaves / speed)
+        element.tip_loss_factor(sine)
     };
-    let momentum = |v: S| {
+    let thrust = |v: S| {
         let (_, through, speed) = met(v);
         if speed.value() == 0.0 {
             return S::zero();
         }
-        let alpha = pitch - through.atan2(meets.in_plane);
+        let alpha = pitch - through.atan2(section.in_plane);
         let lift = element.lift_coefficient(alpha, speed);
-        strength * speed * lift * meets.flap_cos / factor(v, through, speed)
+        strength * speed * lift * section.flap_cos / factor(v, through, speed)
     };
-    let mass_flow = |v: S| descent.speed(flow.edgewise, meets.through, v);
-    let v = uniform::mean_velocity(mass_flow, meets.through, scale, momentum)?;
+    let mass_flow = |v: S| momentum.descent.speed(flow.edgewise, section.through, v);
+    let v = uniform::mean_velocity(mass_flow, section.through, scale, thrust)?;
     let (axial, through, speed) = met(v);
     let share = if speed.value() == 0.0 {
         S::one()
@@ -101,7 +97,10 @@ pub fn solve<S: Scalar>(
 #[cfg(test)]
 mod tests {
     use super::{
-        super::annulus::tests::{airfoil, element},
+        super::{
+            Descent, Ground,
+            annulus::tests::{airfoil, element},
+        },
         *,
     };
 
@@ -118,7 +117,7 @@ mod tests {
             ..DiscFlow::default()
         };
         let at = |through: f64| {
-            let meets = Encounter {
+            let section = SectionFlow {
                 pitch: 0.0,
                 in_plane: 80.0,
                 through,
@@ -128,14 +127,11 @@ mod tests {
                 out: 0.8 * flap_cos,
                 up: 0.8 * flap_sin,
             };
-            let answer = solve(
-                &element,
-                &meets,
-                &flow,
-                Descent::Measured,
-                Ground::default(),
-            );
-            answer.unwrap()
+            let momentum = Momentum {
+                descent: Descent::Measured,
+                ground: Ground::default(),
+            };
+            solve(&element, &section, &flow, &momentum).unwrap()
         };
         let (up, down) = (at(-1e-9), at(1e-9));
         assert!(up.induced.axial > 1.0);

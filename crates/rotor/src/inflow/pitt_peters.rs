@@ -23,11 +23,11 @@
 //! singular at chi = 77.7 deg.
 
 use super::{
-    Field,
-    descent::{Descent, MassFlow},
-    linear::Wake,
+    InflowStates, MAX_STATES,
+    descent::MassFlow,
+    dynamic::{DiscLoading, Stream},
 };
-use crate::scalar::Scalar;
+use crate::{induced::Field, scalar::Scalar};
 use core::f64::consts::PI;
 
 /// The loading of the disc over rho A, m2/s2.
@@ -38,14 +38,25 @@ pub struct Loading<S = f64> {
     pub sine: S,
 }
 
-/// The flow through a rotor of radius R: along the disc and down through it without what it
-/// induces, m/s.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Stream<S = f64> {
-    pub edgewise: S,
-    pub climb: S,
-    pub radius: f64,
-    pub descent: Descent,
+impl<S: Scalar> Loading<S> {
+    /// From the loads of a disc of radius R, m.
+    pub fn of(disc: &DiscLoading<S>, radius: f64) -> Self {
+        Self {
+            thrust: disc.thrust / disc.density_area,
+            cosine: disc.moment_y / (disc.density_area * radius),
+            sine: -disc.moment_x / (disc.density_area * radius),
+        }
+    }
+}
+
+/// Number of states: mean, cosine and sine.
+pub const STATES: usize = 3;
+
+/// A field as the first three inflow states.
+pub fn to_states<S: Scalar>(field: &Field<S>) -> InflowStates<S> {
+    let mut states = [S::zero(); MAX_STATES];
+    states[..STATES].copy_from_slice(&field.to_array());
+    states
 }
 
 const APPARENT_MASS: f64 = 8.0 / (3.0 * PI);
@@ -60,74 +71,63 @@ struct Gains<S> {
     sine: S,
 }
 
-impl<S: Scalar> Stream<S> {
-    fn gains(&self, induced: S) -> Gains<S> {
-        let MassFlow {
-            speed: total,
-            slope: slopes,
-        } = self.descent.mass_flow(self.edgewise, self.climb, induced);
-        if total.is_nothing(0.0) {
-            return Gains {
-                mean: S::zero(),
-                mean_by_cosine: S::zero(),
-                cosine: S::zero(),
-                cosine_by_mean: S::zero(),
-                sine: S::zero(),
-            };
-        }
-        let skew = self.skew(induced);
-        let coupling = skew * (15.0 * PI / 64.0);
-        let (a, d) = (0.5, (S::one() - skew * skew) * 2.0);
-        let determinant = d * a + coupling * coupling;
-        Gains {
-            mean: total * d / determinant,
-            mean_by_cosine: total * coupling / determinant,
-            cosine: slopes * a / determinant,
-            cosine_by_mean: -slopes * coupling / determinant,
-            sine: slopes / ((skew * skew + 1.0) * 2.0),
-        }
+fn gains<S: Scalar>(stream: &Stream<S>, induced: S) -> Gains<S> {
+    let MassFlow {
+        speed: total,
+        slope: slopes,
+    } = stream.mass_flow(induced);
+    if total.is_negligible(0.0) {
+        return Gains {
+            mean: S::zero(),
+            mean_by_cosine: S::zero(),
+            cosine: S::zero(),
+            cosine_by_mean: S::zero(),
+            sine: S::zero(),
+        };
     }
-
-    /// X = tan(chi/2) of the wake's skew, 0 in still air.
-    pub fn skew(&self, induced: S) -> S {
-        Wake::new(self.edgewise, self.climb + induced)
-            .map_or(S::zero(), |wake| wake.along / (wake.flow + wake.down))
-    }
-
-    /// dv/dt, m/s2.
-    pub fn rate(&self, field: &Field<S>, loading: &Loading<S>) -> Field<S> {
-        let gains = self.gains(field.mean);
-        let mean = gains.mean * field.mean + gains.mean_by_cosine * field.cosine;
-        let cosine = gains.cosine * field.cosine + gains.cosine_by_mean * field.mean;
-        let sine = gains.sine * field.sine;
-        Field {
-            mean: (loading.thrust - mean) / (APPARENT_MASS * self.radius),
-            cosine: (loading.cosine - cosine) / (APPARENT_INERTIA * self.radius),
-            sine: (loading.sine - sine) / (APPARENT_INERTIA * self.radius),
-        }
+    let skew = stream.skew(induced);
+    let coupling = skew * (15.0 * PI / 64.0);
+    let (a, d) = (0.5, (S::one() - skew * skew) * 2.0);
+    let determinant = d * a + coupling * coupling;
+    Gains {
+        mean: total * d / determinant,
+        mean_by_cosine: total * coupling / determinant,
+        cosine: slopes * a / determinant,
+        cosine_by_mean: -slopes * coupling / determinant,
+        sine: slopes / ((skew * skew + 1.0) * 2.0),
     }
 }
 
-impl Stream {
-    /// An estimate of how fast the states move towards their equilibrium, 1/s, for steps in time. To
-    /// what the wake carries away comes the damping by the blades with a lift slope of 2 pi:
-    /// `solidity` N c/(pi R), `tip_speed` m/s.
-    pub fn fastest_rate(&self, induced: f64, solidity: f64, tip_speed: f64) -> f64 {
-        let gains = self.gains(induced);
-        // The mass flow changes with the mean as well, which counts where it nearly vanishes.
-        let mean = 2.0 * gains.mean + 2.0 * induced.abs();
-        let wake = mean / APPARENT_MASS + (gains.cosine + gains.sine) / APPARENT_INERTIA;
-        let speed = tip_speed + self.edgewise;
-        let blades =
-            solidity * 2.0 * PI * speed * (0.25 / APPARENT_MASS + 0.125 / APPARENT_INERTIA);
-        (wake + blades) / self.radius
+/// dv/dt, m/s2.
+pub fn rate<S: Scalar>(stream: &Stream<S>, field: &Field<S>, loading: &Loading<S>) -> Field<S> {
+    let gains = gains(stream, field.mean);
+    let mean = gains.mean * field.mean + gains.mean_by_cosine * field.cosine;
+    let cosine = gains.cosine * field.cosine + gains.cosine_by_mean * field.mean;
+    let sine = gains.sine * field.sine;
+    Field {
+        mean: (loading.thrust - mean) / (APPARENT_MASS * stream.radius),
+        cosine: (loading.cosine - cosine) / (APPARENT_INERTIA * stream.radius),
+        sine: (loading.sine - sine) / (APPARENT_INERTIA * stream.radius),
     }
+}
+
+/// An estimate of how fast the states move towards their equilibrium, 1/s, for steps in time: what the wake carries away
+/// plus the damping by the blades with a lift slope of 2 pi. `solidity` is N c/(pi R), `tip_speed` in m/s.
+pub fn fastest_rate(stream: &Stream, induced: f64, solidity: f64, tip_speed: f64) -> f64 {
+    let gains = gains(stream, induced);
+    // The mass flow changes with the mean as well, which counts where it nearly vanishes.
+    let mean = 2.0 * gains.mean + 2.0 * induced.abs();
+    let wake = mean / APPARENT_MASS + (gains.cosine + gains.sine) / APPARENT_INERTIA;
+    let speed = tip_speed + stream.edgewise;
+    let blades = solidity * 2.0 * PI * speed * (0.25 / APPARENT_MASS + 0.125 / APPARENT_INERTIA);
+    (wake + blades) / stream.radius
 }
 
 #[cfg(test)]
 #[allow(clippy::disallowed_methods)] // the expectations are independent of libm
 mod tests {
     use super::*;
+    use crate::inflow::Descent;
     use num_dual::Dual64;
 
     fn stream(edgewise: f64, climb: f64, radius: f64) -> Stream {
@@ -153,7 +153,7 @@ mod tests {
             cosine: 6.0 * 0.4 / 2.0,
             sine: -6.0 * 0.2 / 2.0,
         };
-        let rate = stream(0.0, 0.0, 1.5).rate(&field, &loading);
+        let rate = rate(&stream(0.0, 0.0, 1.5), &field, &loading);
         for part in rate.to_array() {
             assert!(part.abs() < 1e-13, "{rate:?}");
         }
@@ -177,7 +177,7 @@ mod tests {
                 thrust: 2.0 * total * mean,
                 ..Loading::default()
             };
-            let rate = stream(edgewise, climb, 1.0).rate(&field, &loading);
+            let rate = rate(&stream(edgewise, climb, 1.0), &field, &loading);
             for part in rate.to_array() {
                 assert!(part.abs() < 1e-10, "{edgewise}: {rate:?}");
             }
@@ -202,7 +202,7 @@ mod tests {
                 mean,
                 ..Field::default()
             };
-            stream(0.0, 0.0, radius).rate(&field, &loading).mean
+            rate(&stream(0.0, 0.0, radius), &field, &loading).mean
         };
         let constant = -2.0 * small / (rate(v0 + small) - rate(v0 - small));
         let expected = radius * 8.0 / (3.0 * PI) / (4.0 * v0);
@@ -233,7 +233,7 @@ mod tests {
                 cosine: Dual64::from_re(0.4),
                 sine: still,
             };
-            let rate = stream.rate(&field, &loading).cosine;
+            let rate = rate(&stream, &field, &loading).cosine;
             let expected = -1.5 * 0.4 / (APPARENT_INERTIA * 2.0);
             assert_eq!(rate.re, 0.0);
             assert!((rate.eps / expected - 1.0).abs() < 1e-12, "{rate}");

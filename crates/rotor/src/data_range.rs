@@ -1,0 +1,53 @@
+//! Whether the airfoils' data cover the flow at the blades.
+
+use super::{
+    airfoil::{Airfoil, Axis},
+    blade_loads::ElementLoads,
+    rotor::Rotor,
+};
+
+/// An airfoil that meets Reynolds or Mach numbers outside its data.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OutsideData<'a> {
+    /// The first such airfoil in the order of their use along the blade.
+    pub airfoil: &'a Airfoil,
+    /// Lowest and highest number in its file.
+    pub file: (f64, f64),
+    /// Lowest and highest number at the elements with this airfoil.
+    pub met: (f64, f64),
+}
+
+impl Rotor {
+    /// The first airfoil that meets numbers outside its data under these loads, one for each element. Allocates nothing.
+    /// Elements in still air do not count.
+    pub fn outside_data(&self, loads: &[ElementLoads], axis: Axis) -> Option<OutsideData<'_>> {
+        let airfoils = self.airfoils().iter().enumerate();
+        airfoils.into_iter().find_map(|(index, airfoil)| {
+            let file = airfoil.range(axis)?;
+            let met = self.met(loads, index, axis)?;
+            let is_outside = met.0 < file.0 || met.1 > file.1;
+            is_outside.then_some(OutsideData { airfoil, file, met })
+        })
+    }
+
+    /// Lowest and highest number at the elements that use an airfoil.
+    fn met(&self, loads: &[ElementLoads], airfoil: usize, axis: Axis) -> Option<(f64, f64)> {
+        let elements = self.elements();
+        let mut range = None;
+        for (i, load) in loads.iter().enumerate() {
+            let share = elements.outer_share[i];
+            let is_inner = elements.inner_airfoil[i] == airfoil && share < 1.0;
+            let is_outer = elements.outer_airfoil[i] == airfoil && share > 0.0;
+            if load.speed == 0.0 || !(is_inner || is_outer) {
+                continue;
+            }
+            let number = match axis {
+                Axis::Reynolds => load.reynolds,
+                Axis::Mach => load.mach,
+            };
+            let (low, high): (f64, f64) = range.unwrap_or((number, number));
+            range = Some((low.min(number), high.max(number)));
+        }
+        range
+    }
+}

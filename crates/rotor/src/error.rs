@@ -1,0 +1,31 @@
+//! Why a rotor could not be computed.
+
+use super::root::RootError;
+use thiserror::Error;
+
+/// No solution was found at an operating point.
+#[derive(Debug, Error, Clone, Copy, PartialEq)]
+pub enum SolveError {
+    /// The momentum equation of an annulus.
+    #[error("the inflow at r/R = {radius_ratio:.3} has no solution: {cause}")]
+    Annulus {
+        /// r/R of the element's middle.
+        radius_ratio: f64,
+        /// What the root finder found.
+        cause: RootError,
+    },
+    /// The momentum equation of the disc as a whole.
+    #[error("the mean inflow of the disc has no solution: {0}")]
+    Disc(RootError),
+    /// The thrust on which the end of the lift depends.
+    #[error("the radius at which the lift ends has no solution: {0}")]
+    LiftEnd(RootError),
+    /// The steady start.
+    #[error(
+        "no state was found in which inflow and flapping repeat themselves; set initialization to rest"
+    )]
+    NoSteadyState,
+    /// A step in time, s.
+    #[error("a step of {0} s is too long for the states of inflow and flapping; shorten it")]
+    StepTooLong(f64),
+}

@@ -1,0 +1,233 @@
+//! A rotor at an operating point in a state: wind axes, the disc's flow in them, and the positions of the blades.
+
+use super::{
+    blade::Blade,
+    disc::{Azimuth, BladePosition, BladePositions, DiscFlow, Flap, WindAxes},
+    flapping::{Action, Freedom},
+    inflow::{Disc, Ground, InflowStates, Momentum, Stream},
+    models::Blades,
+    operating_point::OperatingPoint,
+    rotor::Rotor,
+    scalar::Scalar,
+    state::State,
+};
+use core::f64::consts::PI;
+use nalgebra::Vector3;
+
+/// Asymmetry of the inflow states below which the disc counts as symmetric, as a fraction of the speeds in the problem.
+const SYMMETRIC: f64 = 1e-12;
+
+/// A rotor at an operating point in a state, with what every computation there needs.
+#[derive(Debug, Clone)]
+pub struct Evaluation<'a, S = f64> {
+    pub(crate) rotor: &'a Rotor,
+    /// At the rotor speed that belongs to the state.
+    pub(crate) point: OperatingPoint<S>,
+    pub(crate) state: &'a State<S>,
+    pub(crate) axes: WindAxes<S>,
+    pub(crate) flow: DiscFlow<S>,
+    /// In wind axes.
+    pub(crate) gravity: Vector3<S>,
+    /// In wind axes.
+    pub(crate) inflow_states: InflowStates<S>,
+    pub(crate) positions: BladePositions<S>,
+    /// Whether the positions are those of the blades, rather than stations for an azimuth average.
+    pub(crate) is_individual: bool,
+    /// Of blades that flap here.
+    pub(crate) freedom: Option<&'a Freedom>,
+}
+
+impl Rotor {
+    /// The rotor at an operating point in a state.
+    pub fn evaluate<'a, S: Scalar>(
+        &'a self,
+        point: &OperatingPoint<S>,
+        state: &'a State<S>,
+    ) -> Evaluation<'a, S> {
+        let models = self.models();
+        Evaluation::new(
+            self,
+            point,
+            state,
+            models.blades,
+            models.hinge.freedom.as_ref(),
+        )
+    }
+
+    /// The same with rigid blades, averaged over one revolution.
+    pub(crate) fn evaluate_as_disc<'a, S: Scalar>(
+        &'a self,
+        point: &OperatingPoint<S>,
+        state: &'a State<S>,
+    ) -> Evaluation<'a, S> {
+        Evaluation::new(self, point, state, Blades::Disc, None)
+    }
+}
+
+impl<'a, S: Scalar> Evaluation<'a, S> {
+    fn new(
+        rotor: &'a Rotor,
+        point: &OperatingPoint<S>,
+        state: &'a State<S>,
+        blades: Blades,
+        freedom: Option<&'a Freedom>,
+    ) -> Self {
+        let point = point.at_speed_of(state);
+        let mirror = rotor.mirror();
+        let inflow = &rotor.models().inflow;
+        let OperatingPoint {
+            airspeed,
+            angular_velocity,
+            gravity,
+            ..
+        } = point;
+        let axes = WindAxes::new(airspeed.x, airspeed.y * mirror);
+        let (roll_rate, pitch_rate) =
+            axes.into_wind(angular_velocity.x * mirror, angular_velocity.y);
+        let (gravity_x, gravity_y) = axes.into_wind(gravity.x, gravity.y * mirror);
+        // Cyclic pitch is -cos(psi) and -sin(psi) times these, so that it turns like (x, y).
+        let (cyclic_cos, cyclic_sin) =
+            axes.into_wind(point.cyclic_lateral, point.cyclic_longitudinal);
+        let flow = DiscFlow {
+            rotation: point.speed + angular_velocity.z * mirror,
+            speed: point.speed,
+            edgewise: airspeed.x.hypot(airspeed.y),
+            climb: airspeed.z,
+            roll_rate,
+            pitch_rate,
+            cyclic_cos,
+            cyclic_sin,
+            hinge: rotor.models().hinge.offset,
+        };
+        // An asymmetry that dies away never quite vanishes.
+        let speeds =
+            flow.rotation.abs() * rotor.geometry().radius + flow.edgewise + flow.climb.abs();
+        let limit = SYMMETRIC * speeds.value();
+        let is_symmetric = flow.is_axisymmetric() && inflow.is_axisymmetric(&state.inflow, limit);
+        let is_individual = !inflow.is_axial_only()
+            && (freedom.is_some()
+                || match blades {
+                    Blades::Automatic => !is_symmetric,
+                    Blades::Disc => false,
+                    Blades::Individual => true,
+                });
+        let positions = if is_individual {
+            blade_positions(rotor, &axes, state, freedom)
+        } else {
+            stations(rotor, is_symmetric)
+        };
+        Self {
+            rotor,
+            point,
+            state,
+            axes,
+            flow,
+            gravity: Vector3::new(gravity_x, gravity_y, gravity.z),
+            inflow_states: inflow.into_wind(&state.inflow, &axes),
+            positions,
+            is_individual,
+            freedom,
+        }
+    }
+
+    /// Whether the response is that of blades at their azimuths, rather than an average over one revolution.
+    pub fn shows_blades(&self) -> bool {
+        self.is_individual
+    }
+
+    /// Whether the states go on changing for ever, because blades meet other air at each azimuth or a torque drives them.
+    pub fn never_settles(&self) -> bool {
+        let turns =
+            self.point.speed.value() != 0.0 && self.is_individual && !self.flow.is_axisymmetric();
+        turns || self.point.is_driven()
+    }
+
+    /// The disc as the inflow models see it, with the lift of the elements ending as `lifting_shares` say.
+    pub(crate) fn disc<'b>(&'b self, lifting_shares: &'b [S]) -> Disc<'b, S> {
+        let rotor = self.rotor;
+        let models = rotor.models();
+        Disc {
+            blade: Blade {
+                geometry: rotor.geometry(),
+                elements: rotor.elements(),
+                airfoils: rotor.airfoils(),
+                section: &models.section,
+                tip_loss: models.tip_loss,
+                air: &self.point.air,
+                collective: self.point.collective,
+                lifting_shares,
+            },
+            flow: &self.flow,
+            positions: &self.positions,
+            is_individual: self.is_individual,
+            momentum: Momentum {
+                descent: models.descent,
+                ground: Ground {
+                    effect: models.ground_effect,
+                    height_ratio: self.point.height / rotor.geometry().radius,
+                },
+            },
+        }
+    }
+
+    /// The stream that carries the wake of dynamic inflow away.
+    pub(crate) fn stream(&self) -> Stream<S> {
+        Stream {
+            edgewise: self.flow.edgewise,
+            climb: self.flow.climb,
+            radius: self.rotor.geometry().radius,
+            descent: self.rotor.models().descent,
+        }
+    }
+
+    /// What acts on a blade whose air load has this moment about the hinge, N.m.
+    pub(crate) fn action(&self, moment: S) -> Action<S> {
+        Action {
+            moment,
+            spring: self.point.hinge_spring,
+            gravity: self.gravity,
+        }
+    }
+}
+
+/// The blades where they are.
+fn blade_positions<S: Scalar>(
+    rotor: &Rotor,
+    axes: &WindAxes<S>,
+    state: &State<S>,
+    freedom: Option<&Freedom>,
+) -> BladePositions<S> {
+    let count = rotor.geometry().blades as usize;
+    let step = 2.0 * PI / count as f64;
+    BladePositions::new((0..count).map(|k| {
+        let psi = state.azimuth + step * k as f64;
+        let (cos, sin) = axes.into_wind(psi.cos(), psi.sin());
+        let azimuth = Azimuth { sin, cos };
+        match (freedom, state.flaps.get(k)) {
+            (Some(freedom), Some(flap)) => {
+                let above = flap.angle - rotor.models().hinge.precone;
+                BladePosition::new(azimuth, *flap, above * -freedom.pitch_flap)
+            }
+            _ => rigid(rotor, azimuth),
+        }
+    }))
+}
+
+/// The stations on the azimuth to average over: a single one without direction where all azimuths are alike.
+fn stations<S: Scalar>(rotor: &Rotor, is_symmetric: bool) -> BladePositions<S> {
+    if is_symmetric {
+        return BladePositions::new([rigid(rotor, Azimuth::any())].into_iter());
+    }
+    BladePositions::new(rotor.stations().iter().map(|azimuth| {
+        let (sin, cos) = (S::constant(azimuth.sin), S::constant(azimuth.cos));
+        rigid(rotor, Azimuth { sin, cos })
+    }))
+}
+
+fn rigid<S: Scalar>(rotor: &Rotor, azimuth: Azimuth<S>) -> BladePosition<S> {
+    BladePosition::new(
+        azimuth,
+        Flap::rigid(rotor.models().hinge.precone),
+        S::zero(),
+    )
+}

@@ -1,0 +1,69 @@
+//! What the rotor is asked to do, and the air it does it in.
+
+use super::{air::Air, scalar::Scalar, state::State};
+use nalgebra::Vector3;
+
+/// An operating point: controls, motion of the hub and air. SI units, rad; vectors in the hub frame (x forward, y left, z
+/// up along the shaft).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OperatingPoint<S = f64> {
+    /// Blade pitch at the reference radius, rad. With cyclic control it is collective - cyclic_lateral cos(psi) -
+    /// cyclic_longitudinal sin(psi), psi from the tail in the turning sense.
+    pub collective: S,
+    /// See `collective`, rad.
+    pub cyclic_longitudinal: S,
+    /// See `collective`, rad.
+    pub cyclic_lateral: S,
+    /// Omega, of the rotor against the hub, rad/s. While a torque drives the rotor, the speed at the start.
+    pub speed: S,
+    /// Velocity of the hub through the air, m/s.
+    pub airspeed: Vector3<S>,
+    /// Angular velocity of the hub, rad/s.
+    pub angular_velocity: Vector3<S>,
+    /// Acceleration of gravity, m/s2; it acts on blades that flap.
+    pub gravity: Vector3<S>,
+    /// Stiffness of the flapping hinges, N.m/rad.
+    pub hinge_spring: S,
+    /// Height of the hub above the ground, m, >= 0.
+    pub height: S,
+    /// What turns the rotor.
+    pub drive: Drive<S>,
+    /// The air around the rotor.
+    pub air: Air<S>,
+}
+
+/// What turns the rotor.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Drive<S = f64> {
+    /// The speed is imposed, whatever torque that takes.
+    #[default]
+    Speed,
+    /// A torque; the rotor speed is a state.
+    Torque {
+        /// N.m, positive in the turning sense.
+        torque: S,
+        /// Moment of inertia about the shaft of everything that turns, kg.m2, > 0.
+        inertia: f64,
+    },
+}
+
+impl<S: Scalar> OperatingPoint<S> {
+    /// Whether a torque drives the rotor, so that its speed is a state.
+    pub fn is_driven(&self) -> bool {
+        match self.drive {
+            Drive::Speed => false,
+            Drive::Torque { .. } => true,
+        }
+    }
+
+    /// The operating point at the rotor speed that belongs to a state.
+    pub fn at_speed_of(&self, state: &State<S>) -> Self {
+        match self.drive {
+            Drive::Speed => *self,
+            Drive::Torque { .. } => Self {
+                speed: state.speed,
+                ..*self
+            },
+        }
+    }
+}

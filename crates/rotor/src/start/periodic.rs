@@ -1,0 +1,93 @@
+//! The state that repeats from blade to blade: after the time in which each blade comes to where the next one was, its
+//! flapping is that of the next one and the inflow is the same. It is found by periodic shooting, as for limit cycles
+//! (Seydel 2010, "Practical Bifurcation and Stability Analysis", ch. 7).
+
+use super::{TOLERANCE, unknowns::Unknowns};
+use crate::{
+    error::SolveError, newton, operating_point::OperatingPoint, rotor::Rotor, scalar::Scalar,
+    state::State, workspace::Workspace,
+};
+use core::f64::consts::PI;
+use nalgebra::DVector;
+
+/// Step, rad, that is short enough for the slopes with which Newton's method finds the periodic state: the third order leaves
+/// them an error of some 1e-4. What it finds belongs to the steps in flight.
+const STEP_FOR_SLOPES: f64 = PI / 12.0;
+
+/// Maximum number of steps from blade to blade; blades of rotors that turn more slowly start from rest.
+const MAX_STEPS: f64 = 3000.0;
+
+/// Maximum number of steps of the search in all. Searches that end well take a tenth.
+const MAX_STEPS_IN_ALL: f64 = 20_000.0;
+
+/// The state that repeats, searched from `guess`; `guess` itself for a rotor that does not turn, or hardly.
+pub(super) fn find(
+    rotor: &Rotor,
+    point: &OperatingPoint,
+    guess: State,
+    azimuth_step: f64,
+    workspace: &mut Workspace,
+) -> Result<State, SolveError> {
+    let count = |longest: f64| steps(rotor, point, &guess, longest);
+    let Some(steps) = count(azimuth_step) else {
+        return Ok(guess);
+    };
+    let steps_for_slopes = count(azimuth_step.max(STEP_FOR_SLOPES)).unwrap_or(steps);
+    let unknowns = Unknowns::of_periodic_state(rotor, point);
+    let mut left = MAX_STEPS_IN_ALL;
+    let residual = |x: &DVector<f64>, purpose| -> Result<DVector<f64>, SolveError> {
+        let steps = match purpose {
+            newton::Use::Value => steps,
+            newton::Use::Slopes => steps_for_slopes,
+        };
+        left -= steps;
+        if left < 0.0 {
+            return Err(SolveError::NoSteadyState);
+        }
+        let passed = passed(rotor, point, &unknowns.state(x), steps, workspace)?;
+        Ok(unknowns.of(&passed) - x)
+    };
+    let found = newton::solve(unknowns.of(&guess), TOLERANCE, residual)?;
+    let found = found.ok_or(SolveError::NoSteadyState)?;
+    Ok(unknowns.state(&found))
+}
+
+/// Number of steps from blade to blade, each at most `longest` (rad); none for a rotor that does not turn, or hardly.
+pub(super) fn steps(
+    rotor: &Rotor,
+    point: &OperatingPoint,
+    state: &State,
+    longest: f64,
+) -> Option<f64> {
+    if point.speed == 0.0 {
+        return None;
+    }
+    let passage = passage(rotor, point);
+    let cells = libm::ceil(passage * point.speed / longest * (1.0 - 1e-9)).max(1.0);
+    let steps = cells * rotor.stable_steps(point, state, passage / cells);
+    (steps <= MAX_STEPS).then_some(steps)
+}
+
+/// The state after the time from blade to blade, with each blade's flapping in the place of the one before it.
+pub(super) fn passed<S: Scalar>(
+    rotor: &Rotor,
+    point: &OperatingPoint<S>,
+    state: &State<S>,
+    steps: f64,
+    workspace: &mut Workspace<S>,
+) -> Result<State<S>, SolveError> {
+    let step = passage(rotor, point) / steps;
+    let mut state = *state;
+    for _ in 0..steps as u32 {
+        state = rotor.step(|_| *point, &state, step, workspace)?;
+    }
+    if let flaps @ [_, ..] = &mut state.flaps[..rotor.flapping_blades()] {
+        flaps.rotate_right(1);
+    }
+    Ok(state)
+}
+
+/// Time in which a blade comes to where the next one was, s; negative for a rotor that turns backwards.
+fn passage<S: Scalar>(rotor: &Rotor, point: &OperatingPoint<S>) -> S {
+    S::constant(2.0 * PI) / (point.speed * f64::from(rotor.geometry().blades))
+}

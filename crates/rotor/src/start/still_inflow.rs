@@ -1,0 +1,63 @@
+//! Inflow states that do not change, for rigid blades averaged over one revolution.
+
+use super::{TOLERANCE, unknowns::Unknowns};
+use crate::{
+    error::SolveError,
+    inflow::{InflowStates, Skew},
+    lift_end::disc_loads,
+    newton,
+    operating_point::OperatingPoint,
+    rates,
+    rotor::Rotor,
+    scalar::Scalar,
+    state::State,
+    workspace::Workspace,
+};
+use nalgebra::DVector;
+
+/// The inflow states that do not change, in the axes of the hub.
+pub(super) fn find(
+    rotor: &Rotor,
+    point: &OperatingPoint,
+    workspace: &mut Workspace,
+) -> Result<InflowStates, SolveError> {
+    let inflow = &rotor.models().inflow;
+    let radius = rotor.geometry().radius;
+    let at_rest = State::default();
+    let evaluation = rotor.evaluate_as_disc(point, &at_rest);
+    let flow = &evaluation.flow;
+    let speed = flow.rotation.abs() * radius + flow.edgewise + flow.climb.abs();
+    if speed == 0.0 {
+        return Ok(at_rest.inflow);
+    }
+    // Slopes that vanish with the axial symmetry have the static model's values to start from.
+    workspace.prepare(rotor);
+    let disc = evaluation.disc(&workspace.lifting_shares);
+    let field = disc.momentum_field(Skew::PittPeters)?;
+    let guess = State {
+        inflow: inflow.first_guess(&field.out_of_wind(&evaluation.axes)),
+        ..State::default()
+    };
+    let count = inflow.state_count();
+    let per_rate = radius / (speed * speed);
+    let unknowns = Unknowns::of_inflow(rotor, speed);
+    let found = newton::solve(unknowns.of(&guess), TOLERANCE, |x, _| {
+        let rates = rates(rotor, point, &unknowns.state(x), workspace)?;
+        let scaled = rates.inflow[..count].iter().map(|r| r * per_rate);
+        Ok(DVector::from_iterator(count, scaled))
+    })?;
+    let found = found.ok_or(SolveError::NoSteadyState)?;
+    Ok(unknowns.state(&found).inflow)
+}
+
+/// Rates of the states of the disc.
+pub(super) fn rates<S: Scalar>(
+    rotor: &Rotor,
+    point: &OperatingPoint<S>,
+    state: &State<S>,
+    workspace: &mut Workspace<S>,
+) -> Result<State<S>, SolveError> {
+    let evaluation = rotor.evaluate_as_disc(point, state);
+    let loads = disc_loads(&evaluation, workspace)?;
+    Ok(rates::of(&evaluation, &loads))
+}

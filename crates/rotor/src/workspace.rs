@@ -1,0 +1,39 @@
+//! The memory in which a rotor computes.
+
+use super::{blade_loads::ElementLoads, rotor::Rotor, scalar::Scalar};
+
+/// Scratch memory for computations with one rotor at a time, in plain or dual numbers. It carries nothing from one
+/// computation to the next.
+#[derive(Debug, Clone, Default)]
+pub struct Workspace<S = f64> {
+    /// Fraction of each element that carries lift.
+    pub(crate) lifting_shares: Vec<S>,
+    /// Loads of each element.
+    pub(crate) elements: Vec<ElementLoads<S>>,
+}
+
+impl<S: Scalar> Workspace<S> {
+    /// Memory for a rotor.
+    pub fn new(rotor: &Rotor) -> Self {
+        let mut workspace = Self {
+            lifting_shares: Vec::new(),
+            elements: Vec::new(),
+        };
+        workspace.prepare(rotor);
+        workspace
+    }
+
+    /// As after `new`; allocates only if the last rotor had fewer elements.
+    pub(crate) fn prepare(&mut self, rotor: &Rotor) {
+        let shares = rotor.lifting_shares();
+        self.lifting_shares.clear();
+        self.lifting_shares
+            .extend(shares.iter().map(|share| S::constant(*share)));
+        self.elements.clear();
+        self.elements.resize(shares.len(), ElementLoads::zero());
+    }
+
+    pub(crate) fn elements(&self) -> &[ElementLoads<S>] {
+        &self.elements
+    }
+}
