@@ -5,7 +5,7 @@ use super::{
     flight::Flight,
     outputs::{write_outputs, write_stations},
     setup,
-    states::{read_states, write_derivatives, write_states},
+    state_vector::{read_states, write_derivatives, write_states},
     values::{ValueError, Values},
     variables::{Causality, REALS, STATES, is_state, real},
 };
@@ -93,7 +93,7 @@ impl RotorBlock {
         let mut rates = [0.0; STATES.len()];
         self.derivatives(&mut rates)?;
         let mut reals = self.values.reals.map(Dual64::from_re);
-        for (input, slope) in reals.iter_mut().zip(self.course.past) {
+        for (input, slope) in reals.iter_mut().zip(self.ramp.past) {
             input.eps = slope;
         }
         for (row, rate) in STATES.iter().zip(rates) {

@@ -2,35 +2,35 @@
 //! Neutral of the FMI version.
 
 mod bytes;
-mod course;
 mod coverage;
 mod derivative;
 mod flight;
 mod integrate;
 mod location;
 mod outputs;
+mod ramp;
 mod setup;
 mod shown;
 mod snapshot;
-mod states;
+mod state_vector;
 mod values;
 pub mod variables;
 
-pub use bytes::{Damage, Reader};
+pub use bytes::{DecodeError, Reader};
 pub use derivative::DerivativeError;
 pub use location::path_from_uri;
 pub use setup::SetupError;
 pub use snapshot::Snapshot;
 pub use values::{Stage, ValueError, Values};
 
-use course::Course;
 use coverage::Coverage;
 use flight::Flight;
 use integrate::{Inputs, Memory};
 use num_dual::Dual64;
 use outputs::{write_outputs, write_stations};
+use ramp::Ramp;
 use rotor::{Operation, Response, Rotor, SolveError};
-use states::{read_states, write_derivatives, write_states};
+use state_vector::{read_states, write_derivatives, write_states};
 use std::path::PathBuf;
 use thiserror::Error;
 use variables::{Causality, DriveMode, FlowState, REALS, STATES, integer, is_state, real};
@@ -80,7 +80,7 @@ pub struct RotorBlock {
     /// The states of the rotor, which stand among the values as well, and where they come from.
     memory: Memory,
     /// How the inputs move in the next step.
-    course: Course,
+    ramp: Ramp,
     fresh: Fresh,
     /// The flow as last computed; the variable keeps its value between events.
     flow_state: i32,
@@ -101,7 +101,7 @@ impl RotorBlock {
             rotor: None,
             twin: None,
             memory: Memory::default(),
-            course: Course::default(),
+            ramp: Ramp::default(),
             fresh: Fresh::Nothing,
             notes: Vec::new(),
             coverage: Coverage::default(),
@@ -139,7 +139,7 @@ impl RotorBlock {
         references: &[u32],
         slopes: &[f64],
     ) -> Result<(), ValueError> {
-        Values::set_slopes(references, slopes, &mut self.course.slopes)
+        Values::set_slopes(references, slopes, &mut self.ramp.slopes)
     }
 
     /// Sets Integer and Enumeration variables: all, or none if one is refused.
@@ -213,7 +213,7 @@ impl RotorBlock {
     /// Moves on by `duration` s (> 0). During it the inputs are constant, or move by the derivatives that were
     /// set. If that fails, states, inputs and outputs keep their values.
     pub fn step(&mut self, duration: f64) -> Result<(), BlockError> {
-        if self.course.is_moving() {
+        if self.ramp.is_moving() {
             return self.step_with_moving_inputs(duration);
         }
         let flight = Flight::new(&self.values)?;
@@ -234,21 +234,20 @@ impl RotorBlock {
             let memory = advanced.map_err(|e| self.unsolved(e))?;
             self.publish(&flight, memory)?;
         }
-        self.course.end();
+        self.ramp.end();
         Ok(())
     }
 
     fn step_with_moving_inputs(&mut self, duration: f64) -> Result<(), BlockError> {
         let flight = Flight::new(&self.values)?;
         let azimuth_step = self.values.reals[real::NUMERICS__AZIMUTH_STEP];
-        self.course.begin(&self.values, duration)?;
+        self.ramp.begin(&self.values, duration)?;
         let memory = self.memory;
         self.rotor()?;
-        let (course, values) = (&mut self.course, &self.values);
+        let (ramp, values) = (&mut self.ramp, &self.values);
         // The choices among the values, which alone can be wrong, are those of the beginning.
-        let operation_at = |offset| {
-            Flight::new(course.at(values, offset)).map_or(flight.operation, |f| f.operation)
-        };
+        let operation_at =
+            |offset| Flight::new(ramp.at(values, offset)).map_or(flight.operation, |f| f.operation);
         let inputs = Inputs::Moving(operation_at);
         let advanced = self
             .rotor
@@ -260,12 +259,12 @@ impl RotorBlock {
             None => memory, // `self.rotor` has made one
         };
         let start = self.values.reals;
-        self.values.reals = self.course.at(&self.values, duration).reals;
+        self.values.reals = self.ramp.at(&self.values, duration).reals;
         let published = Flight::new(&self.values)
             .map_err(BlockError::from)
             .and_then(|flight| self.publish(&flight, memory));
         match published {
-            Ok(()) => self.course.end(),
+            Ok(()) => self.ramp.end(),
             Err(_) => self.values.reals = start,
         }
         published

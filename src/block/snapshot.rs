@@ -2,11 +2,11 @@
 
 use super::{
     BlockError, Fresh, RotorBlock,
-    bytes::{Damage, Reader},
-    course::Slopes,
+    bytes::{DecodeError, Reader},
     integrate::{LONGEST_CELL, Memory, Since},
+    ramp::Slopes,
     setup,
-    states::{from_vector, read_states, to_vector, write_states},
+    state_vector::{from_vector, read_states, to_vector, write_states},
     values::{Stage, Values},
     variables::{Causality, INTEGERS, REALS, STRINGS},
 };
@@ -30,8 +30,8 @@ impl RotorBlock {
         Snapshot {
             values: self.values.clone(),
             stage: self.stage,
-            slopes: self.course.slopes,
-            past_slopes: self.course.past,
+            slopes: self.ramp.slopes,
+            past_slopes: self.ramp.past,
             memory: self.memory,
             fresh: self.fresh,
             flow_state: self.flow_state,
@@ -53,8 +53,8 @@ impl RotorBlock {
         }
         self.values.clone_from(&snapshot.values);
         self.stage = snapshot.stage;
-        self.course.slopes = snapshot.slopes;
-        self.course.past = snapshot.past_slopes;
+        self.ramp.slopes = snapshot.slopes;
+        self.ramp.past = snapshot.past_slopes;
         self.memory = snapshot.memory;
         self.fresh = snapshot.fresh;
         self.flow_state = snapshot.flow_state;
@@ -122,7 +122,7 @@ impl Snapshot {
 
     /// Reads what `write` wrote. Bytes that no block can have written are refused: values that are out of their
     /// ranges, not finite or that contradict each other.
-    pub fn read(reader: &mut Reader) -> Result<Self, Damage> {
+    pub fn read(reader: &mut Reader) -> Result<Self, DecodeError> {
         let mut values = Values {
             reals: reader.reals()?,
             ..Values::default()
@@ -134,7 +134,7 @@ impl Snapshot {
         let since = match is_since {
             0.0 => None,
             1.0 => Some(read_since(reader)?),
-            _ => return Err(Damage::Value("the integration".into())),
+            _ => return Err(DecodeError::Value("the integration".into())),
         };
         for value in &mut values.integers {
             *value = reader.integer()?;
@@ -144,20 +144,20 @@ impl Snapshot {
             *value = match reader.byte()? {
                 0 => false,
                 1 => true,
-                _ => return Err(Damage::Value("a Boolean variable".into())),
+                _ => return Err(DecodeError::Value("a Boolean variable".into())),
             };
         }
         let stage = match reader.byte()? {
             0 => Stage::Configuring,
             1 => Stage::Running,
             2 => Stage::Integrating,
-            _ => return Err(Damage::Value("the stage".into())),
+            _ => return Err(DecodeError::Value("the stage".into())),
         };
         let fresh = match reader.byte()? {
             0 => Fresh::Nothing,
             1 => Fresh::Derivatives,
             2 => Fresh::All,
-            _ => return Err(Damage::Value("the outputs".into())),
+            _ => return Err(DecodeError::Value("the outputs".into())),
         };
         for text in &mut values.strings {
             *text = reader.text()?;
@@ -176,8 +176,8 @@ impl Snapshot {
     }
 
     /// What holds for every block.
-    fn check(&self) -> Result<(), Damage> {
-        let wrong = |name: &str| Err(Damage::Value(name.to_owned()));
+    fn check(&self) -> Result<(), DecodeError> {
+        let wrong = |name: &str| Err(DecodeError::Value(name.to_owned()));
         for (variable, value) in REALS.iter().zip(self.values.reals) {
             let is_in_range =
                 variable.causality.is_computed() || (variable.min..=variable.max).contains(&value);
@@ -224,12 +224,12 @@ fn is_finite(state: &State) -> bool {
     to_vector(state).iter().all(|value| value.is_finite())
 }
 
-fn read_since(reader: &mut Reader) -> Result<Since, Damage> {
+fn read_since(reader: &mut Reader) -> Result<Since, DecodeError> {
     let operation = operation_from_numbers(&reader.reals()?)?;
     let state = from_vector(&reader.reals()?);
     let [elapsed] = reader.reals()?;
     if !is_finite(&state) || !(0.0..=LONGEST_CELL).contains(&elapsed) {
-        return Err(Damage::Value("the integration".into()));
+        return Err(DecodeError::Value("the integration".into()));
     }
     Ok(Since {
         operation,
@@ -285,7 +285,7 @@ fn operation_to_numbers(operation: &Operation) -> [f64; OPERATION] {
 }
 
 /// What `operation_to_numbers` made numbers of. The block only compares it with the present operation.
-fn operation_from_numbers(numbers: &[f64; OPERATION]) -> Result<Operation, Damage> {
+fn operation_from_numbers(numbers: &[f64; OPERATION]) -> Result<Operation, DecodeError> {
     let vector = |first: usize| Vector3::from_column_slice(&numbers[first..first + 3]);
     let drive = match numbers[15] {
         0.0 => Drive::Speed,
@@ -293,7 +293,7 @@ fn operation_from_numbers(numbers: &[f64; OPERATION]) -> Result<Operation, Damag
             torque: numbers[16],
             inertia: numbers[17],
         },
-        _ => return Err(Damage::Value("the integration".into())),
+        _ => return Err(DecodeError::Value("the integration".into())),
     };
     Ok(Operation {
         collective: numbers[0],
@@ -347,7 +347,7 @@ mod tests {
         assert!(reader.end().is_ok());
         for end in 0..written.len() {
             let error = Snapshot::read(&mut Reader::new(&written[..end])).unwrap_err();
-            assert_eq!(error, Damage::Short);
+            assert_eq!(error, DecodeError::Short);
         }
     }
 
@@ -359,7 +359,7 @@ mod tests {
             let mut bad = good.clone();
             change(&mut bad);
             match Snapshot::read(&mut Reader::new(&bytes(&bad))) {
-                Err(Damage::Value(name)) => name,
+                Err(DecodeError::Value(name)) => name,
                 other => panic!("{other:?}"),
             }
         };

@@ -1,6 +1,6 @@
 //! The values of all variables, and the rules under which they may be set.
 
-use super::course::Slopes;
+use super::ramp::Slopes;
 use super::shown::shown;
 use super::variables::{BOOLEANS, Causality, INTEGERS, REALS, STATES, STRINGS, Variable, is_state};
 use thiserror::Error;
