@@ -5,10 +5,11 @@ use super::{
     bytes::{DecodeError, Reader},
     integrate::{LONGEST_CELL, Memory, Since},
     ramp::Slopes,
+    references::Reals,
     setup,
     state_vector::{from_vector, read_states, to_vector, write_states},
     values::{Stage, Values},
-    variables::{Causality, INTEGERS, REALS, STRINGS},
+    variables::{Causality, INTEGERS, REALS, STRINGS, integer},
 };
 use nalgebra::Vector3;
 use rotor::{Drive, Operation, State, air::Air};
@@ -88,7 +89,7 @@ impl Snapshot {
                 .iter()
                 .for_each(|v| out.extend_from_slice(&v.to_le_bytes()));
         };
-        reals(&self.values.reals);
+        reals(&*self.values.reals);
         reals(&self.slopes);
         reals(&self.past_slopes);
         reals(&to_vector(&self.memory.state));
@@ -124,7 +125,7 @@ impl Snapshot {
     /// ranges, not finite or that contradict each other.
     pub fn read(reader: &mut Reader) -> Result<Self, DecodeError> {
         let mut values = Values {
-            reals: reader.reals()?,
+            reals: Reals::new(reader.reals()?),
             ..Values::default()
         };
         let slopes = reader.reals()?;
@@ -136,11 +137,11 @@ impl Snapshot {
             1.0 => Some(read_since(reader)?),
             _ => return Err(DecodeError::Value("the integration".into())),
         };
-        for value in &mut values.integers {
+        for value in values.integers.iter_mut() {
             *value = reader.integer()?;
         }
         let flow_state = reader.integer()?;
-        for value in &mut values.booleans {
+        for value in values.booleans.iter_mut() {
             *value = match reader.byte()? {
                 0 => false,
                 1 => true,
@@ -159,7 +160,7 @@ impl Snapshot {
             2 => Fresh::All,
             _ => return Err(DecodeError::Value("the outputs".into())),
         };
-        for text in &mut values.strings {
+        for text in values.strings.iter_mut() {
             *text = reader.text()?;
         }
         let snapshot = Self {
@@ -197,7 +198,7 @@ impl Snapshot {
                 return wrong(variable.name);
             }
         }
-        let flow = &INTEGERS[super::integer::FLOW_STATE];
+        let flow = integer::FLOW_STATE.variable();
         if !(flow.min..=flow.max).contains(&self.flow_state) {
             return wrong(flow.name);
         }
@@ -316,6 +317,7 @@ fn operation_from_numbers(numbers: &[f64; OPERATION]) -> Result<Operation, Decod
 
 #[cfg(test)]
 mod tests {
+    use super::super::variables::{real, string};
     use super::*;
 
     fn bytes(snapshot: &Snapshot) -> Vec<u8> {
@@ -337,9 +339,9 @@ mod tests {
     #[test]
     fn bytes_make_the_snapshot_of_which_they_were_made_and_end_with_it() {
         let mut block = RotorBlock::new("/nowhere".into());
-        block.set_reals(&[0], &[0.2]).unwrap();
-        block.set_input_slopes(&[1], &[0.25]).unwrap();
-        block.set_strings(&[0], &["ü"]).unwrap();
+        block.set_reals(&[real::COLLECTIVE], &[0.2]).unwrap();
+        block.set_input_slopes(&[real::RPM], &[0.25]).unwrap();
+        block.set_strings(&[string::AIRFOIL__FILE], &["ü"]).unwrap();
         let snapshot = block.snapshot();
         let written = bytes(&snapshot);
         let mut reader = Reader::new(&written);
@@ -363,19 +365,22 @@ mod tests {
                 other => panic!("{other:?}"),
             }
         };
-        let blades = super::super::integer::GEOMETRY__NUMBER_OF_BLADES;
-        assert_eq!(refused(&|s| s.values.reals[0] = f64::NAN), "collective");
-        assert_eq!(refused(&|s| s.values.reals[1] = -1.0), "rpm");
+        let blades = integer::GEOMETRY__NUMBER_OF_BLADES;
+        assert_eq!(
+            refused(&|s| s.values.reals[real::COLLECTIVE] = f64::NAN),
+            "collective"
+        );
+        assert_eq!(refused(&|s| s.values.reals[real::RPM] = -1.0), "rpm");
         assert_eq!(refused(&|s| s.slopes[1] = f64::INFINITY), "rpm");
         assert_eq!(refused(&|s| s.past_slopes[0] = f64::NAN), "collective");
         assert_eq!(
             refused(&|s| s.values.integers[blades] = 0),
-            INTEGERS[blades].name
+            blades.variable().name
         );
         assert_eq!(refused(&|s| s.flow_state = 9), "flowState");
         assert_eq!(
-            refused(&|s| s.values.strings[0] = "\0".into()),
-            STRINGS[0].name
+            refused(&|s| s.values.strings[string::AIRFOIL__FILE] = "\0".into()),
+            string::AIRFOIL__FILE.variable().name
         );
         assert_eq!(
             refused(&|s| s.memory.state.azimuth = f64::NAN),
