@@ -27,11 +27,17 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
         categories.len()
     )?;
 
-    for (base, module, array, rust_type) in [
-        (Base::Real, "real", "REALS", "f64"),
-        (Base::Integer, "integer", "INTEGERS", "i32"),
-        (Base::Boolean, "boolean", "BOOLEANS", "bool"),
-        (Base::String, "string", "STRINGS", "&str"),
+    for (base, module, array, rust_type, reference) in [
+        (Base::Real, "real", "REALS", "f64", "RealRef"),
+        (Base::Integer, "integer", "INTEGERS", "i32", "IntegerRef"),
+        (Base::Boolean, "boolean", "BOOLEANS", "bool", "BooleanRef"),
+        (
+            Base::String,
+            "string",
+            "STRINGS",
+            "&'static str",
+            "StringRef",
+        ),
     ] {
         let variables: Vec<&Variable> = table.of_base(base).collect();
         writeln!(out, "/// Variables of this base type, by value reference.")?;
@@ -46,12 +52,28 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
         writeln!(out, "];")?;
         writeln!(out, "/// Value references, which are places in `{array}`.")?;
         writeln!(out, "pub mod {module} {{")?;
+        writeln!(out, "    use super::{reference};")?;
         for (i, v) in variables.iter().enumerate() {
             writeln!(out, "    /// {}", v.description)?;
             writeln!(
                 out,
-                "    pub const {}: usize = {i};",
+                "    pub const {}: {reference} = {reference}::at({i});",
                 constant_name(&v.name)
+            )?;
+            // Before the first element of an array: all of them.
+            let row = |v: &Variable| v.element_of.clone();
+            let Some(name) = row(v).filter(|_| i == 0 || row(variables[i - 1]) != row(v)) else {
+                continue;
+            };
+            let elements = variables.iter().filter(|other| row(other) == row(v));
+            let names: Vec<String> = elements.map(|v| constant_name(&v.name)).collect();
+            writeln!(out, "    /// {}", v.description)?;
+            writeln!(
+                out,
+                "    pub const {}: [{reference}; {}] = [{}];",
+                constant_name(&name.replace("[#]", "")),
+                names.len(),
+                names.join(", ")
             )?;
         }
         writeln!(out, "}}")?;
@@ -72,9 +94,9 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
     for (state, derivative) in table.states().zip(table.derivatives()) {
         writeln!(
             out,
-            "    ContinuousState {{ place: {}, derivative: {}, nominal: {:?} }},",
-            table.value_reference(state),
-            table.value_reference(derivative),
+            "    ContinuousState {{ value: real::{}, derivative: real::{}, nominal: {:?} }},",
+            constant_name(&state.name),
+            constant_name(&derivative.name),
             state.nominal.unwrap_or(1.0)
         )?;
     }

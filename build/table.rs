@@ -83,6 +83,9 @@ pub struct Variable {
     /// Name of the state whose derivative this is; such variables are not written but made.
     #[serde(skip)]
     pub derivative_of: Option<String>,
+    /// Name of the row, with its `#`, of which this is one element.
+    #[serde(skip)]
+    pub element_of: Option<String>,
 }
 
 fn real() -> String {
@@ -201,6 +204,7 @@ impl Table {
             rate_depends_on: None,
             description: "Derivative in time of the state named in the brackets".into(),
             derivative_of: Some(state.name.clone()),
+            element_of: state.element_of.as_ref().map(|row| format!("der({row})")),
             ..state.clone()
         })
     }
@@ -335,6 +339,7 @@ impl Variable {
             };
             Self {
                 name: numbered(&self.name),
+                element_of: Some(self.name.clone()),
                 depends_on: list(&self.depends_on),
                 rate_depends_on: list(&self.rate_depends_on),
                 ..self.clone()

@@ -27,16 +27,16 @@ const STEPS: usize = 30;
 fn fly(rotor: &str, mu: f64, rpm: f64, alpha: f64) -> (f64, f64) {
     let mut block = default_block();
     block
-        .set_strings(&[string::GEOMETRY__FILE as u32], &[rotor])
+        .set_strings(&[string::GEOMETRY__FILE], &[rotor])
         .unwrap();
     choose(&mut block, integer::MODELS__INFLOW, "pittPetersDynamic");
     choose(&mut block, integer::MODELS__TIP_LOSS, "wheatley");
     choose(&mut block, integer::AIR__ATMOSPHERE, "userDefined");
     block
-        .set_integers(&[integer::NUMERICS__ELEMENTS as u32], &[20])
+        .set_integers(&[integer::NUMERICS__ELEMENTS], &[20])
         .unwrap();
     block
-        .set_booleans(&[boolean::FLAPPING__ENABLED as u32], &[1])
+        .set_booleans(&[boolean::FLAPPING__ENABLED], &[1])
         .unwrap();
     let edgewise = mu * rpm * PI / 30.0 * RADIUS;
     for (place, value) in [

@@ -5,7 +5,7 @@
 
 use helicopter_rotor::block::{
     RotorBlock,
-    variables::{integer, real, string},
+    variables::{IntegerRef, RealRef, integer, real, string},
 };
 use nalgebra::Vector3;
 use rotor::{
@@ -25,23 +25,23 @@ fn resources() -> PathBuf {
 }
 
 /// The block with default values and these changes, computed.
-fn computed(reals: &[(usize, f64)], integers: &[(usize, i32)]) -> RotorBlock {
+fn computed(reals: &[(RealRef, f64)], integers: &[(IntegerRef, i32)]) -> RotorBlock {
     let mut block = RotorBlock::new(resources());
     for (place, value) in reals {
-        block.set_reals(&[*place as u32], &[*value]).unwrap();
+        block.set_reals(&[*place], &[*value]).unwrap();
     }
     for (place, value) in integers {
-        block.set_integers(&[*place as u32], &[*value]).unwrap();
+        block.set_integers(&[*place], &[*value]).unwrap();
     }
     block.update().unwrap();
     block
 }
 
-fn output(block: &RotorBlock, place: usize) -> f64 {
+fn output(block: &RotorBlock, place: RealRef) -> f64 {
     block.values().reals[place]
 }
 
-fn thrust(reals: &[(usize, f64)]) -> f64 {
+fn thrust(reals: &[(RealRef, f64)]) -> f64 {
     output(&computed(reals, &[]), real::THRUST)
 }
 
@@ -266,7 +266,8 @@ fn tilt_turns_the_hub_forces_into_the_ground_frame_and_the_flow_into_the_disc() 
     ] {
         assert!(
             (output(&block, place) - expected).abs() < 1e-12 * t,
-            "{place}"
+            "{}",
+            place.variable().name
         );
     }
     // Climbing along the tilted shaft is climb, up to the rounding of the flow along the disc.
@@ -317,7 +318,8 @@ fn coefficients_follow_their_definitions() {
         (real::POWER, out(real::TORQUE) * 960.0 * PI / 30.0),
         (real::INFLOW_RATIO, out(real::INDUCED_VELOCITY) / tip_speed),
     ] {
-        assert!((out(place) / expected - 1.0).abs() < 1e-12, "{place}");
+        let name = place.variable().name;
+        assert!((out(place) / expected - 1.0).abs() < 1e-12, "{name}");
     }
 }
 
@@ -344,7 +346,7 @@ fn every_model_is_finite_in_every_direction_of_flow_and_pitch() {
     let mut count = 0;
     let mut block = RotorBlock::new(resources());
     block
-        .set_integers(&[integer::NUMERICS__ELEMENTS as u32], &[8])
+        .set_integers(&[integer::NUMERICS__ELEMENTS], &[8])
         .unwrap();
     for models in (0..9 * 2 * 3 * 4).map(|i| [1 + i % 9, 1 + i / 9 % 2, 1 + i / 18 % 3, 1 + i / 54])
     {
@@ -354,15 +356,13 @@ fn every_model_is_finite_in_every_direction_of_flow_and_pitch() {
             integer::MODELS__TIP_LOSS,
             integer::MODELS__COMPRESSIBILITY,
         ];
-        block
-            .set_integers(&places.map(|p| p as u32), &models)
-            .unwrap();
+        block.set_integers(&places, &models).unwrap();
         for rpm in [0.0, 1.0, 960.0, 1440.0, 20_000.0] {
             for climb in [-60.0, -9.0, -4.0, -1.0, 0.0, 1e-9, 2.0, 12.0, 30.0] {
                 for degrees in (-168..=168).step_by(16) {
                     let reals = [f64::from(degrees).to_radians(), rpm, climb];
                     let places = [real::COLLECTIVE, real::RPM, real::VELOCITY_3];
-                    block.set_reals(&places.map(|p| p as u32), &reals).unwrap();
+                    block.set_reals(&places, &reals).unwrap();
                     // Outputs that are not finite are an error.
                     block
                         .update()
@@ -396,7 +396,7 @@ fn the_rotor_file_replaces_the_geometry_and_its_planform_counts() {
     let mut block = RotorBlock::new(resources());
     let set = |block: &mut RotorBlock, name: &str| {
         block
-            .set_strings(&[string::GEOMETRY__FILE as u32], &[name])
+            .set_strings(&[string::GEOMETRY__FILE], &[name])
             .unwrap();
     };
     block.update().unwrap();
@@ -436,26 +436,25 @@ fn stall_spreads_with_pitch() {
 #[test]
 fn the_stations_along_the_blade_add_up_to_the_thrust() {
     let block = computed(&[], &[]);
-    let at = |first: usize, i: usize| output(&block, first + i);
+    let at = |stations: [RealRef; 20], i: usize| output(&block, stations[i]);
     let (mut sum, length) = (0.0, 0.762 * (1.0 - 1.0 / 6.0) / 20.0);
     for i in 0..20 {
-        let radius = at(real::STATION_1__RADIUS, i);
+        let radius = at(real::STATION__RADIUS, i);
         let expected = 1.0 / 6.0 + (i as f64 + 0.5) / 20.0 * 5.0 / 6.0;
         assert!((radius - expected).abs() < 1e-12);
-        sum += 4.0 * at(real::STATION_1__THRUST_PER_LENGTH, i) * length;
+        sum += 4.0 * at(real::STATION__THRUST_PER_LENGTH, i) * length;
         let tip_part = output(&block, real::TIP_MACH) * radius;
         assert!(
-            (at(real::STATION_1__MACH, i) / tip_part - 1.0).abs() < 0.03,
+            (at(real::STATION__MACH, i) / tip_part - 1.0).abs() < 0.03,
             "{i}"
         );
         let reynolds = output(&block, real::TIP_REYNOLDS) * radius;
         assert!(
-            (at(real::STATION_1__REYNOLDS, i) / reynolds - 1.0).abs() < 0.03,
+            (at(real::STATION__REYNOLDS, i) / reynolds - 1.0).abs() < 0.03,
             "{i}"
         );
-        assert!(at(real::STATION_1__DRAG_COEFFICIENT, i) > 0.01);
-        let slope =
-            at(real::STATION_1__LIFT_COEFFICIENT, i) / at(real::STATION_1__ANGLE_OF_ATTACK, i);
+        assert!(at(real::STATION__DRAG_COEFFICIENT, i) > 0.01);
+        let slope = at(real::STATION__LIFT_COEFFICIENT, i) / at(real::STATION__ANGLE_OF_ATTACK, i);
         assert!((5.0..6.8).contains(&slope), "{i}: {slope}");
     }
     assert!(

@@ -8,7 +8,7 @@ mod support;
 
 use helicopter_rotor::block::{
     RotorBlock,
-    variables::{boolean, integer, real},
+    variables::{IntegerRef, RealRef, boolean, integer, real},
 };
 use nalgebra::Vector3;
 use rotor::{
@@ -206,18 +206,18 @@ fn flapping_block(inflow: &str) -> RotorBlock {
     let mut block = default_block();
     block
         .set_integers(
-            &[integer::MODELS__INFLOW as u32],
+            &[integer::MODELS__INFLOW],
             &[choice(integer::MODELS__INFLOW, inflow)],
         )
         .unwrap();
     block
-        .set_booleans(&[boolean::FLAPPING__ENABLED as u32], &[1])
+        .set_booleans(&[boolean::FLAPPING__ENABLED], &[1])
         .unwrap();
     set(&mut block, real::VELOCITY_1, 15.0);
     block
 }
 
-const ANSWER: [usize; 6] = [
+const ANSWER: [RealRef; 6] = [
     real::THRUST,
     real::HUB_MOMENT_1,
     real::CONING,
@@ -232,7 +232,7 @@ fn power_is_torque_times_speed_and_rotor_speed_is_rpm() {
     block.start().unwrap();
     for _ in 0..10 {
         block.step(0.0031).unwrap();
-        let out = |place: usize| block.values().reals[place];
+        let out = |place: RealRef| block.values().reals[place];
         let expected = out(real::TORQUE) * 960.0 * PI / 30.0;
         assert!((out(real::POWER) / expected - 1.0).abs() < 1e-12);
         assert!((out(real::HUB_MOMENT_3) + out(real::TORQUE)).abs() < 1e-12);
@@ -276,9 +276,7 @@ fn the_motion_of_the_blades_is_of_third_order_in_the_azimuth_step() {
             integer::MODELS__TIP_LOSS,
         ];
         let rest = choice(integer::INITIALIZATION, "rest");
-        block
-            .set_integers(&places.map(|p| p as u32), &[lift, rest, 1])
-            .unwrap();
+        block.set_integers(&places, &[lift, rest, 1]).unwrap();
         set(&mut block, real::VELOCITY_1, 5.0);
         set(
             &mut block,
@@ -301,9 +299,9 @@ fn the_motion_of_the_blades_is_of_third_order_in_the_azimuth_step() {
 
 #[test]
 fn flapping_with_models_that_cannot_flap_is_refused_with_the_remedy() {
-    let refused = |place: usize, value: i32| {
+    let refused = |place: IntegerRef, value: i32| {
         let mut block = flapping_block("annulus");
-        block.set_integers(&[place as u32], &[value]).unwrap();
+        block.set_integers(&[place], &[value]).unwrap();
         block.start().unwrap_err().to_string()
     };
     let disc = refused(

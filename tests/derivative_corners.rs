@@ -8,7 +8,7 @@ mod support {
 
 use helicopter_rotor::block::{
     RotorBlock,
-    variables::{INTEGERS, REALS, boolean, integer, is_state, real, string},
+    variables::{RealRef, boolean, integer, real, string},
 };
 use support::{
     block::{choose, default_block, get, project, set},
@@ -43,7 +43,7 @@ impl Random {
 fn random_block(random: &mut Random) -> RotorBlock {
     let mut block = default_block();
     block
-        .set_integers(&[integer::NUMERICS__ELEMENTS as u32], &[12])
+        .set_integers(&[integer::NUMERICS__ELEMENTS], &[12])
         .unwrap();
     for place in [
         integer::MODELS__INFLOW,
@@ -57,22 +57,22 @@ fn random_block(random: &mut Random) -> RotorBlock {
         integer::INITIALIZATION,
         integer::AIR__ATMOSPHERE,
     ] {
-        let choices = INTEGERS[place].choices;
+        let choices = place.variable().choices;
         choose(&mut block, place, choices[random.below(choices.len())]);
     }
-    let is_closed_form = INTEGERS[integer::MODELS__INFLOW].choices[0] == "annulusClosedForm"
+    let is_closed_form = integer::MODELS__INFLOW.variable().choices[0] == "annulusClosedForm"
         && block.values().integers[integer::MODELS__INFLOW] == 1;
     if is_closed_form {
         choose(&mut block, integer::MODELS__GROUND_EFFECT, "none");
     }
     let (blades, order) = (1 + random.below(8) as i32, 1 + random.below(6) as i32);
     let places = [
-        integer::GEOMETRY__NUMBER_OF_BLADES as u32,
-        integer::NUMERICS__INFLOW_ORDER as u32,
+        integer::GEOMETRY__NUMBER_OF_BLADES,
+        integer::NUMERICS__INFLOW_ORDER,
     ];
     block.set_integers(&places, &[blades, order]).unwrap();
     if !is_closed_form && random.one_in(3) {
-        let enabled = boolean::FLAPPING__ENABLED as u32;
+        let enabled = boolean::FLAPPING__ENABLED;
         block.set_booleans(&[enabled], &[1]).unwrap();
         choose(&mut block, integer::MODELS__BLADES, "automatic");
         set(&mut block, real::FLAPPING__HINGE_OFFSET, 0.05);
@@ -86,7 +86,7 @@ fn random_block(random: &mut Random) -> RotorBlock {
         0 => {
             let file = project().join("tests/data/smooth.txt");
             let file = file.to_str().unwrap();
-            let airfoil = string::AIRFOIL__FILE as u32;
+            let airfoil = string::AIRFOIL__FILE;
             block.set_strings(&[airfoil], &[file]).unwrap();
             choose(&mut block, integer::MODELS__LIFT, "slopesByReynolds");
         }
@@ -136,7 +136,7 @@ fn random_flight(block: &mut RotorBlock, random: &mut Random) {
 }
 
 /// What has a one-sided derivative everywhere but at thrust 0.
-fn unknowns() -> Vec<usize> {
+fn unknowns() -> Vec<RealRef> {
     let steps = [real::STALLED_RADIUS, real::STALLED_FRACTION];
     let mut all = outputs_and_rates();
     all.retain(|place| !steps.contains(place) && *place != real::FIGURE_OF_MERIT);
@@ -145,7 +145,7 @@ fn unknowns() -> Vec<usize> {
 
 /// The largest error of the exact derivatives along one known to one side, of which unknown: against the best of
 /// differences with several steps, each of the first and second order, as a part of its change.
-fn worst(block: &mut RotorBlock, known: usize, side: f64) -> (f64, String) {
+fn worst(block: &mut RotorBlock, known: RealRef, side: f64) -> (f64, String) {
     let unknowns = unknowns();
     let exact = exact_along(block, &unknowns, known, side);
     let (base, scale) = (get(block, known), known_scale(known));
@@ -176,7 +176,7 @@ fn worst(block: &mut RotorBlock, known: usize, side: f64) -> (f64, String) {
     let mut worst = (0.0, String::new());
     for (j, unknown) in unknowns.iter().enumerate() {
         if errors[j] > worst.0 {
-            let (unknown, known) = (REALS[*unknown].name, REALS[known].name);
+            let (unknown, known) = (unknown.variable().name, known.variable().name);
             let (exact, closest) = (exact[j], closest[j]);
             let text =
                 format!("d {unknown}/d {known} to {side}: {exact:e}, difference {closest:e}");
@@ -202,7 +202,7 @@ fn derivatives_to_either_side_of_corners_are_those_of_differences() {
         for _ in 0..6 {
             let known = knowns[random.below(knowns.len())];
             for side in [1.0, -1.0] {
-                if side < 0.0 && get(&block, known) <= REALS[known].min {
+                if side < 0.0 && get(&block, known) <= known.variable().min {
                     continue;
                 }
                 let (error, which) = worst(&mut block, known, side);
@@ -214,7 +214,7 @@ fn derivatives_to_either_side_of_corners_are_those_of_differences() {
     assert!(compared > 3000, "{compared}");
 }
 
-fn to_both_sides(block: &mut RotorBlock, known: usize) {
+fn to_both_sides(block: &mut RotorBlock, known: RealRef) {
     for side in [1.0, -1.0] {
         let (error, which) = worst(block, known, side);
         assert!(error < 1e-4, "{error:.1e}, {which}");
@@ -277,7 +277,7 @@ fn derivatives_at_known_corners() {
 #[test]
 fn states_that_a_model_does_not_have_have_no_effect() {
     let mut block = default_block();
-    let one = integer::GEOMETRY__NUMBER_OF_BLADES as u32;
+    let one = integer::GEOMETRY__NUMBER_OF_BLADES;
     block.set_integers(&[one], &[1]).unwrap();
     block.start().unwrap();
     block.begin_integration().unwrap();
@@ -288,8 +288,8 @@ fn states_that_a_model_does_not_have_have_no_effect() {
             .collect::<Vec<_>>()
     };
     let before = outputs(&block);
-    for place in (0..REALS.len()).filter(|i| REALS[*i].name.starts_with("state.inflow")) {
-        assert!(is_state(place as u32));
+    for place in RealRef::all().filter(|r| r.variable().name.starts_with("state.inflow")) {
+        assert!(place.is_state());
         set(&mut block, place, 1.0);
     }
     block.update().unwrap();

@@ -7,7 +7,7 @@ mod support {
 
 use helicopter_rotor::block::{
     DerivativeError, RotorBlock,
-    variables::{INTEGERS, REALS, boolean, integer, real, string},
+    variables::{RealRef, boolean, integer, real, string},
 };
 use support::{
     block::{choose, default_block, project, set},
@@ -119,7 +119,7 @@ fn smooth_block(inflow: &str, blades: &str, flight: &Flight) -> RotorBlock {
     let file = project().join("tests/data/smooth.txt");
     let file = file.to_str().unwrap();
     block
-        .set_strings(&[string::AIRFOIL__FILE as u32], &[file])
+        .set_strings(&[string::AIRFOIL__FILE], &[file])
         .unwrap();
     choose(&mut block, integer::MODELS__LIFT, "slopesByReynolds");
     into_flight(&mut block, inflow, blades, flight);
@@ -129,7 +129,7 @@ fn smooth_block(inflow: &str, blades: &str, flight: &Flight) -> RotorBlock {
 fn into_flight(block: &mut RotorBlock, inflow: &str, blades: &str, flight: &Flight) {
     choose(block, integer::MODELS__INFLOW, inflow);
     if blades == "flapping" {
-        let enabled = boolean::FLAPPING__ENABLED as u32;
+        let enabled = boolean::FLAPPING__ENABLED;
         block.set_booleans(&[enabled], &[1]).unwrap();
         set(block, real::FLAPPING__HINGE_OFFSET, 0.05);
         set(block, real::FLAPPING__DELTA3, 0.2);
@@ -155,8 +155,8 @@ fn under_way(mut block: RotorBlock) -> RotorBlock {
 /// The same by differences of the fourth order, with steps of `part` of the known's scale.
 fn differences(
     block: &mut RotorBlock,
-    unknowns: &[usize],
-    known: usize,
+    unknowns: &[RealRef],
+    known: RealRef,
     difference: Difference,
     part: f64,
 ) -> Vec<f64> {
@@ -190,7 +190,7 @@ fn differences(
 /// scale, and of which it is.
 fn worst(
     block: &mut RotorBlock,
-    knowns: &[usize],
+    knowns: &[RealRef],
     difference: Difference,
     part: f64,
 ) -> (f64, String) {
@@ -214,7 +214,7 @@ fn worst(
             let (exact, difference) = (exact[j], difference[j]);
             let error = (exact - difference).abs() * known_scale(*known) / scale;
             if error > worst.0 {
-                let (unknown, known) = (REALS[*unknown].name, REALS[*known].name);
+                let (unknown, known) = (unknown.variable().name, known.variable().name);
                 let text = format!("d {unknown}/d {known} = {exact:e}, differences {difference:e}");
                 worst = (error, text);
             }
@@ -225,7 +225,7 @@ fn worst(
 
 /// All inflow models with every way to hold the blades.
 fn models() -> impl Iterator<Item = (&'static str, &'static str)> {
-    let inflows = INTEGERS[integer::MODELS__INFLOW].choices.iter();
+    let inflows = integer::MODELS__INFLOW.variable().choices.iter();
     let all = inflows.flat_map(|inflow| BLADES.map(|blades| (*inflow, blades)));
     all.filter(|case| *case != ("annulusClosedForm", "flapping"))
 }
@@ -249,7 +249,7 @@ fn derivatives_by_inputs_and_states_are_those_of_differences_in_all_models() {
 
 #[test]
 fn derivatives_by_tunable_parameters_are_those_of_differences() {
-    let knowns: Vec<usize> = (0..REALS.len()).filter(|i| REALS[*i].tunable).collect();
+    let knowns: Vec<RealRef> = RealRef::all().filter(|r| r.variable().tunable).collect();
     assert_eq!(knowns.len(), 3, "spring, density, temperature");
     for (inflow, blades) in models() {
         let mut block = smooth_block(inflow, blades, &FLIGHTS[5]);
@@ -317,15 +317,13 @@ fn outputs_change_in_time_as_they_do_from_step_to_step() {
     block.start().unwrap();
     block.step(0.01).unwrap();
     let outputs = [real::THRUST, real::TORQUE, real::CONING, real::AZIMUTH];
-    let mut rates = [f64::NAN; 4];
-    let references = outputs.map(|o| o as u32);
-    block.output_rates(&references, &mut rates).unwrap();
+    let rates: Vec<f64> = block.output_rates(&outputs).unwrap().collect();
     let step = 1e-6;
     let at_present = outputs.map(|o| block.values().reals[o]);
     block.step(step).unwrap();
     for ((output, rate), before) in outputs.into_iter().zip(rates).zip(at_present) {
         let difference = (block.values().reals[output] - before) / step;
-        let name = REALS[output].name;
+        let name = output.variable().name;
         assert!(
             (rate / difference - 1.0).abs() < 1e-3,
             "{name}: {rate} {difference}"
@@ -338,17 +336,11 @@ fn outputs_change_in_time_as_they_do_from_step_to_step() {
 fn derivatives_along_several_knowns_add_up() {
     let mut block = under_way(smooth_block("annulus", "automatic", near_the_ground()));
     let unknowns = outputs_and_rates();
-    let references: Vec<u32> = unknowns.iter().map(|u| *u as u32).collect();
     let knowns = [real::COLLECTIVE, real::VELOCITY_3, real::COLLECTIVE];
-    let mut sum = vec![0.0; unknowns.len()];
-    block
-        .directional_derivative(
-            &references,
-            &knowns.map(|k| k as u32),
-            &[0.5, 2.0, 0.25],
-            &mut sum,
-        )
-        .unwrap();
+    let sum: Vec<f64> = block
+        .directional_derivative(&unknowns, &knowns, &[0.5, 2.0, 0.25])
+        .unwrap()
+        .collect();
     let by_pitch = exact(&mut block, &unknowns, knowns[0]);
     let by_climb = exact(&mut block, &unknowns, knowns[1]);
     for (i, sum) in sum.iter().enumerate() {
@@ -376,12 +368,11 @@ fn asking_changes_nothing() {
 #[test]
 fn what_has_no_derivative_is_refused_by_name() {
     let mut block = under_way(smooth_block("annulus", "automatic", near_the_ground()));
-    let mut ask = |unknown: usize, known: usize| {
-        let mut out = [7.0];
-        let asked =
-            block.directional_derivative(&[unknown as u32], &[known as u32], &[1.0], &mut out);
-        assert_eq!(out[0], 7.0, "nothing is written");
-        asked.unwrap_err()
+    let mut ask = |unknown: RealRef, known: RealRef| {
+        block
+            .directional_derivative(&[unknown], &[known], &[1.0])
+            .map(|_| ())
+            .unwrap_err()
     };
     assert_eq!(
         ask(real::COLLECTIVE, real::RPM),
@@ -397,8 +388,8 @@ fn what_has_no_derivative_is_refused_by_name() {
         ask(real::THRUST, real::TORQUE),
         DerivativeError::NotKnown { name: "torque" }
     );
-    assert!(matches!(
-        ask(real::THRUST, 99_999),
-        DerivativeError::Reference(_)
-    ));
+    let unknown = block
+        .directional_derivative(&[real::THRUST], &[99_999_u32], &[1.0])
+        .map(|_| ());
+    assert!(matches!(unknown, Err(DerivativeError::Reference(_))));
 }

@@ -9,7 +9,7 @@ mod support;
 
 use helicopter_rotor::block::{
     RotorBlock,
-    variables::{FlowState, integer, real},
+    variables::{FlowState, RealRef, integer, real},
 };
 use support::{choose, default_block, set};
 
@@ -27,7 +27,7 @@ fn block(inflow: &str, descent: &str) -> RotorBlock {
 }
 
 /// An output in a vertical descent, m/s.
-fn descending(block: &mut RotorBlock, speed: f64, place: usize) -> f64 {
+fn descending(block: &mut RotorBlock, speed: f64, place: RealRef) -> f64 {
     set(block, real::VELOCITY_3, -speed);
     block.update().unwrap();
     block.values().reals[place]
@@ -162,7 +162,7 @@ fn nothing_chatters_on_the_way_through_the_vortex_ring() {
         ("petersHe", 0.05, 20),
     ] {
         let mut block = block(inflow, "measured");
-        let elements = integer::NUMERICS__ELEMENTS as u32;
+        let elements = integer::NUMERICS__ELEMENTS;
         block.set_integers(&[elements], &[12]).unwrap();
         block.start().unwrap();
         let mut on_the_way = Vec::new();

@@ -8,12 +8,12 @@ mod support;
 
 use helicopter_rotor::block::{
     RotorBlock,
-    variables::{INTEGERS, boolean, integer, real, string},
+    variables::{IntegerRef, RealRef, boolean, integer, real, string},
 };
 use std::f64::consts::PI;
 use support::{choose, default_block, get, set};
 
-fn block(choices: &[(usize, &str)], values: &[(usize, f64)]) -> RotorBlock {
+fn block(choices: &[(IntegerRef, &str)], values: &[(RealRef, f64)]) -> RotorBlock {
     let mut block = default_block();
     for (place, name) in choices {
         choose(&mut block, *place, name);
@@ -24,7 +24,7 @@ fn block(choices: &[(usize, &str)], values: &[(usize, f64)]) -> RotorBlock {
     block
 }
 
-const TORQUE: (usize, &str) = (integer::DRIVE__MODE, "torque");
+const TORQUE: (IntegerRef, &str) = (integer::DRIVE__MODE, "torque");
 const SPEED: f64 = 960.0 * PI / 30.0;
 
 /// The torque that the rotor absorbs at its speed keeps it there.
@@ -85,7 +85,7 @@ fn the_communication_step_does_not_change_the_running_down() {
             &[(real::DRIVE__INERTIA, 0.1), (real::VELOCITY_1, 5.0)],
         );
         rotor
-            .set_booleans(&[boolean::FLAPPING__ENABLED as u32], &[1])
+            .set_booleans(&[boolean::FLAPPING__ENABLED], &[1])
             .unwrap();
         rotor.start().unwrap();
         steps.iter().for_each(|step| rotor.step(*step).unwrap());
@@ -159,12 +159,12 @@ fn an_autogiro_without_an_engine_turns_as_fast_as_measured() {
             ],
         );
         rotor
-            .set_strings(&[string::GEOMETRY__FILE as u32], &["pca-2.toml"])
+            .set_strings(&[string::GEOMETRY__FILE], &["pca-2.toml"])
             .unwrap();
-        let elements = integer::NUMERICS__ELEMENTS as u32;
+        let elements = integer::NUMERICS__ELEMENTS;
         rotor.set_integers(&[elements], &[16]).unwrap();
         rotor
-            .set_booleans(&[boolean::FLAPPING__ENABLED as u32], &[1])
+            .set_booleans(&[boolean::FLAPPING__ENABLED], &[1])
             .unwrap();
         rotor.start().unwrap();
         rotor
@@ -269,7 +269,7 @@ fn thrust_near_the_ground_at_the_same_power() {
 /// Every inflow model gains thrust near the ground, without a jump in height, and hardly in fast flight.
 #[test]
 fn every_inflow_model_feels_the_ground() {
-    for inflow in INTEGERS[integer::MODELS__INFLOW].choices {
+    for inflow in integer::MODELS__INFLOW.variable().choices {
         let model = (integer::MODELS__INFLOW, *inflow);
         let ground = (integer::MODELS__GROUND_EFFECT, "cheesemanBennett");
         let mut rotor = block(&[model, ground, (integer::MODELS__BLADES, "disc")], &[]);

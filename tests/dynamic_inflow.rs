@@ -23,8 +23,7 @@ fn block(model: &str, initialization: i32) -> RotorBlock {
         integer::MODELS__INFLOW,
         integer::MODELS__BLADES,
         integer::INITIALIZATION,
-    ]
-    .map(|p| p as u32);
+    ];
     block
         .set_integers(
             &places,
@@ -147,7 +146,7 @@ fn every_flight_is_finite_or_one_clear_error() {
                     for degrees in [-20.0_f64, 0.0, 8.0, 25.0, 40.0] {
                         let mut block = block("pittPetersDynamic", initialization);
                         block
-                            .set_integers(&[integer::NUMERICS__ELEMENTS as u32], &[8])
+                            .set_integers(&[integer::NUMERICS__ELEMENTS], &[8])
                             .unwrap();
                         set(&mut block, real::RPM, rpm);
                         set(&mut block, real::VELOCITY_1, edgewise);

@@ -6,7 +6,7 @@
 
 use helicopter_rotor::block::{
     RotorBlock,
-    variables::{INTEGERS, integer, real},
+    variables::{RealRef, integer, real},
 };
 use nalgebra::Vector3;
 use rotor::{
@@ -360,10 +360,10 @@ fn the_block_turns_motion_into_the_hub_frame_and_loads_out_of_it() {
         (real::WIND_3, 1.0),
         (real::ANGULAR_VELOCITY_2, 0.2),
     ] {
-        block.set_reals(&[place as u32], &[value]).unwrap();
+        block.set_reals(&[place], &[value]).unwrap();
     }
     block.update().unwrap();
-    let out = |place: usize| block.values().reals[place];
+    let out = |place: RealRef| block.values().reals[place];
     let axis = Vector3::new(
         tilt.sin() * lateral.cos(),
         -lateral.sin(),
@@ -406,21 +406,21 @@ fn the_block_turns_motion_into_the_hub_frame_and_loads_out_of_it() {
 #[test]
 fn every_inflow_model_without_states_is_finite_at_every_advance_climb_pitch_and_speed() {
     let mut block = RotorBlock::new(resources());
-    let set = |block: &mut RotorBlock, place: usize, value: f64| {
-        block.set_reals(&[place as u32], &[value]).unwrap();
+    let set = |block: &mut RotorBlock, place: RealRef, value: f64| {
+        block.set_reals(&[place], &[value]).unwrap();
     };
     block
-        .set_integers(&[integer::NUMERICS__ELEMENTS as u32], &[8])
+        .set_integers(&[integer::NUMERICS__ELEMENTS], &[8])
         .unwrap();
     let mut count = 0;
-    let choices = INTEGERS[integer::MODELS__INFLOW].choices;
+    let choices = integer::MODELS__INFLOW.variable().choices;
     for (inflow, name) in (1..).zip(choices) {
         // Those with states have a start to find, which may not be there: tests/sweep.rs.
         if ["pittPetersDynamic", "petersHe"].contains(name) {
             continue;
         }
         block
-            .set_integers(&[integer::MODELS__INFLOW as u32], &[inflow])
+            .set_integers(&[integer::MODELS__INFLOW], &[inflow])
             .unwrap();
         for rpm in [0.0, 1.0, 480.0, 1440.0] {
             set(&mut block, real::RPM, rpm);

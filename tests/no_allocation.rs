@@ -1,7 +1,7 @@
 //! A running simulation allocates no memory: setting and reading numbers, steps, states and derivatives.
 
 use helicopter_rotor::{
-    block::variables::{GUID, INTEGERS, STATES, boolean, integer, real},
+    block::variables::{GUID, STATES, boolean, integer, real},
     fmi2::{
         co_simulation::{fmi2DoStep, fmi2SetRealInputDerivatives},
         common::{
@@ -53,27 +53,27 @@ static ALLOCATOR: Counting = Counting;
 
 /// Every inflow model, with rigid and with flapping blades.
 fn rotors() -> Vec<(&'static str, i32)> {
-    let models = INTEGERS[integer::MODELS__INFLOW].choices.iter();
+    let models = integer::MODELS__INFLOW.variable().choices.iter();
     let all = models.flat_map(|model| [(*model, 0), (*model, 1)]);
     all.filter(|rotor| *rotor != ("annulusClosedForm", 1))
         .collect()
 }
 
 const INPUTS: [u32; 4] = [
-    real::COLLECTIVE as u32,
-    real::RPM as u32,
-    real::VELOCITY_1 as u32,
-    real::VELOCITY_3 as u32,
+    real::COLLECTIVE.number(),
+    real::RPM.number(),
+    real::VELOCITY_1.number(),
+    real::VELOCITY_3.number(),
 ];
 const OUTPUTS: [u32; 3] = [
-    real::THRUST as u32,
-    real::TORQUE as u32,
-    real::HUB_FORCE_1 as u32,
+    real::THRUST.number(),
+    real::TORQUE.number(),
+    real::HUB_FORCE_1.number(),
 ];
 
 /// An initialised instance.
 fn instance(kind: fmi2Enumeration, (model, flaps): (&str, i32)) -> fmi2Component {
-    let choices = INTEGERS[integer::MODELS__INFLOW].choices;
+    let choices = integer::MODELS__INFLOW.variable().choices;
     let choice = choices.iter().position(|c| *c == model).unwrap() as i32 + 1;
     let name = CString::new("rotor").unwrap();
     let guid = CString::new(GUID).unwrap();
@@ -84,9 +84,9 @@ fn instance(kind: fmi2Enumeration, (model, flaps): (&str, i32)) -> fmi2Component
         let (name, guid, place) = (name.as_ptr(), guid.as_ptr(), resources.as_ptr());
         let c = fmi2Instantiate(name, kind, guid, place, ptr::null(), 0, 0);
         assert!(!c.is_null());
-        let place = integer::MODELS__INFLOW as u32;
+        let place = integer::MODELS__INFLOW.number();
         assert_eq!(fmi2SetInteger(c, &place, 1, &choice), fmi2Status::fmi2OK);
-        let place = boolean::FLAPPING__ENABLED as u32;
+        let place = boolean::FLAPPING__ENABLED.number();
         assert_eq!(fmi2SetBoolean(c, &place, 1, &flaps), fmi2Status::fmi2OK);
         assert_eq!(fmi2EnterInitializationMode(c), fmi2Status::fmi2OK);
         assert_eq!(fmi2ExitInitializationMode(c), fmi2Status::fmi2OK);

@@ -14,13 +14,13 @@ fn root() -> PathBuf {
 fn preset(file: &str) -> RotorBlock {
     let mut block = RotorBlock::new(root().join("modelDescription/resources"));
     block
-        .set_strings(&[string::GEOMETRY__FILE as u32], &[file])
+        .set_strings(&[string::GEOMETRY__FILE], &[file])
         .unwrap();
     block
 }
 
 fn hover(block: &mut RotorBlock, collective_deg: f64, rpm: f64) -> [f64; 2] {
-    let references = [real::COLLECTIVE, real::RPM].map(|place| place as u32);
+    let references = [real::COLLECTIVE, real::RPM];
     let values = [collective_deg.to_radians(), rpm];
     block.set_reals(&references, &values).unwrap();
     block.update().unwrap();
@@ -205,9 +205,9 @@ fn the_thesis_rotor_hovers_with_the_thesis_lift_slopes() {
         let mut block = preset("thesis.toml");
         let [table, _] = hover(&mut block, collective, 430.5);
         block
-            .set_strings(&[string::AIRFOIL__FILE as u32], &["naca0015.txt"])
+            .set_strings(&[string::AIRFOIL__FILE], &["naca0015.txt"])
             .unwrap();
-        let lift = integer::MODELS__LIFT as u32;
+        let lift = integer::MODELS__LIFT;
         block
             .set_integers(&[lift], &[LiftModel::SlopesByReynolds as i32])
             .unwrap();

@@ -3,7 +3,8 @@
 use helicopter_rotor::block::{
     RotorBlock,
     variables::{
-        CompressibilityModel, INTEGERS, InflowModel, LiftModel, TipLossModel, integer, real, string,
+        CompressibilityModel, InflowModel, IntegerRef, LiftModel, RealRef, TipLossModel, integer,
+        real, string,
     },
 };
 use std::{fs, path::PathBuf};
@@ -24,30 +25,30 @@ fn constant_laws() -> String {
     file.to_str().unwrap().to_owned()
 }
 
-fn block(file: &str, integers: &[(usize, i32)]) -> RotorBlock {
+fn block(file: &str, integers: &[(IntegerRef, i32)]) -> RotorBlock {
     let mut block = RotorBlock::new(resources());
     block
-        .set_strings(&[string::AIRFOIL__FILE as u32], &[file])
+        .set_strings(&[string::AIRFOIL__FILE], &[file])
         .unwrap();
     for (place, value) in integers {
-        block.set_integers(&[*place as u32], &[*value]).unwrap();
+        block.set_integers(&[*place], &[*value]).unwrap();
     }
     block
 }
 
-fn set(block: &mut RotorBlock, place: usize, value: f64) {
-    block.set_reals(&[place as u32], &[value]).unwrap();
+fn set(block: &mut RotorBlock, place: RealRef, value: f64) {
+    block.set_reals(&[place], &[value]).unwrap();
 }
 
 /// Parameters and their values.
-const LIFT: (usize, i32) = (integer::MODELS__LIFT, LiftModel::SlopesByReynolds as i32);
-const INCOMPRESSIBLE: (usize, i32) = (
+const LIFT: (IntegerRef, i32) = (integer::MODELS__LIFT, LiftModel::SlopesByReynolds as i32);
+const INCOMPRESSIBLE: (IntegerRef, i32) = (
     integer::MODELS__COMPRESSIBILITY,
     CompressibilityModel::None as i32,
 );
-const NO_TIP_LOSS: (usize, i32) = (integer::MODELS__TIP_LOSS, TipLossModel::None as i32);
+const NO_TIP_LOSS: (IntegerRef, i32) = (integer::MODELS__TIP_LOSS, TipLossModel::None as i32);
 /// As many as stations are shown.
-const ELEMENTS: (usize, i32) = (integer::NUMERICS__ELEMENTS, 20);
+const ELEMENTS: (IntegerRef, i32) = (integer::NUMERICS__ELEMENTS, 20);
 
 /// Angle of attack, lift and drag coefficient at the stations.
 fn stations(block: &RotorBlock) -> Vec<(f64, f64, f64)> {
@@ -55,9 +56,9 @@ fn stations(block: &RotorBlock) -> Vec<(f64, f64, f64)> {
     (0..20)
         .map(|i| {
             (
-                reals[real::STATION_1__ANGLE_OF_ATTACK + i],
-                reals[real::STATION_1__LIFT_COEFFICIENT + i],
-                reals[real::STATION_1__DRAG_COEFFICIENT + i],
+                reals[real::STATION__ANGLE_OF_ATTACK[i]],
+                reals[real::STATION__LIFT_COEFFICIENT[i]],
+                reals[real::STATION__DRAG_COEFFICIENT[i]],
             )
         })
         .collect()
@@ -111,7 +112,7 @@ fn each_element_has_the_slope_of_its_own_pitch() {
     block.update().unwrap();
     let (mut of_a, mut of_b) = (0, 0);
     for (i, (alpha, lift, _)) in stations(&block).into_iter().enumerate() {
-        let radius = block.values().reals[real::STATION_1__RADIUS + i];
+        let radius = block.values().reals[real::STATION__RADIUS[i]];
         let above = 8.0 - 8.0 * radius > 3.0;
         *(if above { &mut of_b } else { &mut of_a }) += 1;
         let slope = if above { 5.0 } else { 6.0 };
@@ -167,7 +168,7 @@ fn a_table_of_laws_is_near_the_polar_that_it_was_made_from() {
 /// The shipped file in all that a rotor meets, with every inflow model that has no states.
 #[test]
 fn every_flight_state_is_finite() {
-    let choices = INTEGERS[integer::MODELS__INFLOW].choices;
+    let choices = integer::MODELS__INFLOW.variable().choices;
     for (i, inflow) in choices.iter().enumerate() {
         if matches!(*inflow, "pittPetersDynamic" | "petersHe") {
             continue;
@@ -220,7 +221,7 @@ fn a_file_without_lift_slopes_is_refused_with_the_remedy() {
     }
     let mut block = block("naca0015.txt", &[LIFT]);
     block
-        .set_strings(&[string::GEOMETRY__FILE as u32], &["knight-hefner-3.toml"])
+        .set_strings(&[string::GEOMETRY__FILE], &["knight-hefner-3.toml"])
         .unwrap();
     let message = block.update().unwrap_err().to_string();
     assert!(

@@ -11,7 +11,7 @@
 
 use helicopter_rotor::block::{
     BlockError, RotorBlock, SetupError,
-    variables::{BOOLEANS, INTEGERS, REALS, boolean, integer, real, string},
+    variables::{BooleanRef, IntegerRef, REALS, RealRef, boolean, integer, real, string},
 };
 use rotor::SolveError;
 use std::{
@@ -25,7 +25,7 @@ use std::{
 const THREADS: usize = 2;
 const ELEMENTS: i32 = 4;
 /// rad.
-const LONGEST_AZIMUTH_STEP: f64 = REALS[real::NUMERICS__AZIMUTH_STEP].max;
+const LONGEST_AZIMUTH_STEP: f64 = real::NUMERICS__AZIMUTH_STEP.variable().max;
 const STEP: f64 = 0.02;
 const RPM: f64 = 960.0;
 
@@ -75,41 +75,40 @@ const MOST_WITHOUT_SOLUTION: f64 = 0.3;
 /// A parameter with a few values.
 #[derive(Debug, Clone, Copy)]
 enum Choice {
-    /// An enumeration by its place among the integers.
-    Enumeration(usize),
-    /// By its place among the booleans.
-    Switch(usize),
+    Enumeration(IntegerRef),
+    Switch(BooleanRef),
 }
 
 impl Choice {
     fn all() -> Vec<Self> {
-        let enumerations = INTEGERS.iter().enumerate();
-        let enumerations =
-            enumerations.filter(|(_, v)| !v.choices.is_empty() && !v.causality.is_computed());
-        let enumerations = enumerations.map(|(place, _)| Self::Enumeration(place));
+        let enumerations = IntegerRef::all().filter(|reference| {
+            let variable = reference.variable();
+            !variable.choices.is_empty() && !variable.causality.is_computed()
+        });
         enumerations
-            .chain((0..BOOLEANS.len()).map(Self::Switch))
+            .map(Self::Enumeration)
+            .chain(BooleanRef::all().map(Self::Switch))
             .collect()
     }
 
     fn count(self) -> usize {
         match self {
-            Self::Enumeration(place) => INTEGERS[place].choices.len(),
+            Self::Enumeration(place) => place.variable().choices.len(),
             Self::Switch(_) => 2,
         }
     }
 
     fn name(self) -> &'static str {
         match self {
-            Self::Enumeration(place) => INTEGERS[place].name,
-            Self::Switch(place) => BOOLEANS[place].name,
+            Self::Enumeration(place) => place.variable().name,
+            Self::Switch(place) => place.variable().name,
         }
     }
 
     /// Its values' names, which are those of the number from 0.
     fn value_name(self, value: usize) -> String {
         match self {
-            Self::Enumeration(place) => INTEGERS[place].choices[value].to_owned(),
+            Self::Enumeration(place) => place.variable().choices[value].to_owned(),
             Self::Switch(_) => (value == 1).to_string(),
         }
     }
@@ -117,15 +116,15 @@ impl Choice {
     /// The value that the table starts with.
     fn default(self) -> usize {
         match self {
-            Self::Enumeration(place) => INTEGERS[place].start as usize - 1,
-            Self::Switch(place) => BOOLEANS[place].start as usize,
+            Self::Enumeration(place) => place.variable().start as usize - 1,
+            Self::Switch(place) => place.variable().start as usize,
         }
     }
 
     fn set(self, block: &mut RotorBlock, value: usize) {
         match self {
-            Self::Enumeration(place) => block.set_integers(&[place as u32], &[value as i32 + 1]),
-            Self::Switch(place) => block.set_booleans(&[place as u32], &[value as i32]),
+            Self::Enumeration(place) => block.set_integers(&[place], &[value as i32 + 1]),
+            Self::Switch(place) => block.set_booleans(&[place], &[value as i32]),
         }
         .unwrap();
     }
@@ -179,7 +178,7 @@ fn block() -> RotorBlock {
     let resources = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("modelDescription/resources");
     let mut block = RotorBlock::new(resources);
     block
-        .set_integers(&[integer::NUMERICS__ELEMENTS as u32], &[ELEMENTS])
+        .set_integers(&[integer::NUMERICS__ELEMENTS], &[ELEMENTS])
         .unwrap();
     set(
         &mut block,
@@ -189,8 +188,8 @@ fn block() -> RotorBlock {
     block
 }
 
-fn set(block: &mut RotorBlock, place: usize, value: f64) {
-    block.set_reals(&[place as u32], &[value]).unwrap();
+fn set(block: &mut RotorBlock, place: RealRef, value: f64) {
+    block.set_reals(&[place], &[value]).unwrap();
 }
 
 /// The computed variables, by their bits.
@@ -305,7 +304,7 @@ impl Sweep {
     /// the closed form.
     fn expected_refusal(&self, run: &Run) -> bool {
         let has = |name: &str, value: &str| self.has(run, name, value);
-        let flaps = has(BOOLEANS[boolean::FLAPPING__ENABLED].name, "true");
+        let flaps = has(boolean::FLAPPING__ENABLED.variable().name, "true");
         let closed = has("models.inflow", "annulusClosedForm");
         flaps && (has("models.blades", "disc") || closed)
             || closed && !has("models.groundEffect", "none")
@@ -323,7 +322,7 @@ impl Sweep {
             choice.set(&mut block, *value);
         }
         if self.has(run, "models.lift", "slopesByReynolds") {
-            let place = string::AIRFOIL__FILE as u32;
+            let place = string::AIRFOIL__FILE;
             block.set_strings(&[place], &["naca0015.txt"]).unwrap();
         }
         let [
@@ -337,7 +336,7 @@ impl Sweep {
             height,
             torque,
         ] = run.levels;
-        let count = integer::GEOMETRY__NUMBER_OF_BLADES as u32;
+        let count = integer::GEOMETRY__NUMBER_OF_BLADES;
         block.set_integers(&[count], &[BLADES[blades]]).unwrap();
         let tip_speed = RPM * PI / 30.0 * block.values().reals[real::GEOMETRY__RADIUS];
         set(&mut block, real::VELOCITY_1, ADVANCE[advance] * tip_speed);

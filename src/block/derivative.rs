@@ -4,10 +4,11 @@ use super::{
     BlockError, RotorBlock, Stage,
     flight::Flight,
     outputs::{write_outputs, write_stations},
+    references::{Names, Reals},
     setup,
-    states::{read_states, write_derivatives, write_states},
-    values::{ValueError, Values},
-    variables::{Causality, REALS, STATES, is_state, real},
+    state_vector::{read_states, write_derivatives, write_states},
+    values::ValueError,
+    variables::{Causality, RealRef, STATES, real},
 };
 use num_dual::Dual64;
 use rotor::{Response, Rotor, State};
@@ -34,12 +35,9 @@ pub enum DerivativeError {
     Block(#[from] BlockError),
 }
 
-/// All Real variables by value reference.
-type Reals = [Dual64; REALS.len()];
-
 impl RotorBlock {
     /// The derivatives of what is computed (outputs, stations, derivatives of the states) along a direction that
-    /// `knowns` (inputs, states, tunable parameters) take with the seeds `along`: into `out` the sums of
+    /// `knowns` (inputs, states, tunable parameters) take with the seeds `along`: for each unknown the sum of
     /// (d unknown/d known) times seed, unit of the unknown. At the present inputs and states; while the block is
     /// configured, with the states that the start finds, which move with the inputs. At a corner of a table or of
     /// the model, the one-sided derivative towards the side to which the direction leads; within rounding of one,
@@ -47,64 +45,62 @@ impl RotorBlock {
     /// nothing of what lies beyond: coefficients and induced velocity of a rotor at rest stay 0. All or nothing.
     pub fn directional_derivative(
         &mut self,
-        unknowns: &[u32],
-        knowns: &[u32],
+        unknowns: &[impl Names<RealRef>],
+        knowns: &[impl Names<RealRef>],
         along: &[f64],
-        out: &mut [f64],
-    ) -> Result<(), DerivativeError> {
+    ) -> Result<impl Iterator<Item = f64>, DerivativeError> {
         let mut reals = self.values.reals.map(Dual64::from_re);
         for (known, seed) in knowns.iter().zip(along) {
-            let variable = Values::real(*known)?;
-            let has_state = is_state(*known) && self.stage != Stage::Configuring;
+            let known = known.reference()?;
+            let variable = known.variable();
+            let has_state = known.is_state() && self.stage != Stage::Configuring;
             let may_change = variable.causality == Causality::Input
                 || (variable.causality == Causality::Parameter && variable.tunable);
             if !may_change && !has_state {
                 let name = variable.name;
                 return Err(DerivativeError::NotKnown { name });
             }
-            reals[*known as usize].eps += seed;
+            reals[known].eps += seed;
         }
         for unknown in unknowns {
-            let variable = Values::real(*unknown)?;
+            let variable = unknown.reference()?.variable();
             if !variable.causality.is_computed() {
                 let name = variable.name;
                 return Err(DerivativeError::NotUnknown { name });
             }
         }
         self.respond_along(&mut reals)?;
-        let along = knowns.iter().map(|k| REALS[*k as usize].name);
-        changes(&reals, unknowns, along, out)
+        let knowns = knowns.iter().flat_map(|known| known.reference());
+        changes(reals, unknowns, knowns.map(|known| known.variable().name))
     }
 
     /// The derivatives of outputs in time, per second, at the present, as a step ends there: with the states' own
     /// rates, and with those of the inputs in the last step. All or nothing.
     pub fn output_rates(
         &mut self,
-        references: &[u32],
-        out: &mut [f64],
-    ) -> Result<(), DerivativeError> {
-        for reference in references {
-            let variable = Values::real(*reference)?;
+        outputs: &[impl Names<RealRef>],
+    ) -> Result<impl Iterator<Item = f64>, DerivativeError> {
+        for output in outputs {
+            let variable = output.reference()?.variable();
             if variable.causality != Causality::Output {
                 let name = variable.name;
                 return Err(DerivativeError::NotUnknown { name });
             }
         }
-        let mut rates = [0.0; STATES.len()];
-        self.derivatives(&mut rates)?;
+        let rates = self.derivatives()?;
         let mut reals = self.values.reals.map(Dual64::from_re);
-        for (input, slope) in reals.iter_mut().zip(self.course.past) {
+        for (input, slope) in reals.iter_mut().zip(self.ramp.past) {
             input.eps = slope;
         }
         for (row, rate) in STATES.iter().zip(rates) {
-            reals[row.place].eps = rate;
+            reals[row.value].eps = rate;
         }
         self.respond_along(&mut reals)?;
-        changes(&reals, references, ["time"].into_iter(), out)
+        changes(reals, outputs, ["time"].into_iter())
     }
 
     /// Replaces what is computed among the variables by what the others make of it.
-    fn respond_along(&mut self, reals: &mut Reals) -> Result<(), DerivativeError> {
+    fn respond_along(&mut self, reals: &mut Reals<Dual64>) -> Result<(), DerivativeError> {
         if self.stage == Stage::Configuring {
             self.update()?;
         }
@@ -132,7 +128,7 @@ impl RotorBlock {
         &mut self,
         twin: &mut Rotor<Dual64>,
         flight: &Flight<Dual64>,
-        reals: &Reals,
+        reals: &Reals<Dual64>,
     ) -> Result<(State<Dual64>, Response<Dual64>), BlockError> {
         let state = if self.stage == Stage::Configuring {
             let plain = Flight::new(&self.values)?.operation;
@@ -152,22 +148,20 @@ impl RotorBlock {
 }
 
 /// The changes of some of the variables, if all are finite; `along`: what they are derivatives by.
-fn changes(
-    reals: &Reals,
-    unknowns: &[u32],
+fn changes<'a>(
+    reals: Reals<Dual64>,
+    unknowns: &'a [impl Names<RealRef>],
     along: impl Iterator<Item = &'static str>,
-    out: &mut [f64],
-) -> Result<(), DerivativeError> {
-    let change = |unknown: &u32| reals[*unknown as usize].eps;
-    if let Some(bad) = unknowns.iter().find(|u| !change(u).is_finite()) {
+) -> Result<impl Iterator<Item = f64> + 'a, DerivativeError> {
+    let unknowns = unknowns.iter().flat_map(|unknown| unknown.reference());
+    let mut not_finite = unknowns.clone().filter(|u| !reals[*u].eps.is_finite());
+    if let Some(bad) = not_finite.next() {
         return Err(DerivativeError::NoDerivative {
-            name: REALS[*bad as usize].name,
+            name: bad.variable().name,
             knowns: along.collect::<Vec<_>>().join(", "),
-            change: change(bad),
+            change: reals[bad].eps,
         });
     }
-    for (slot, unknown) in out.iter_mut().zip(unknowns) {
-        *slot = change(unknown);
-    }
-    Ok(())
+    drop(not_finite);
+    Ok(unknowns.map(move |unknown| reals[unknown].eps))
 }

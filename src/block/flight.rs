@@ -1,9 +1,10 @@
 //! What the inputs ask of the rotor.
 
 use super::{
+    references::Reals,
     setup::{self, SetupError},
     values::Values,
-    variables::{Atmosphere, DriveMode, integer, real},
+    variables::{Atmosphere, DriveMode, RealRef, integer, real},
 };
 use core::f64::consts::PI;
 use nalgebra::{Matrix3, Vector3};
@@ -27,7 +28,7 @@ impl Flight {
 
 impl<S: Scalar> Flight<S> {
     /// With other numbers in place of the Real variables.
-    pub fn with_reals(values: &Values, reals: &[S]) -> Result<Self, SetupError> {
+    pub fn with_reals(values: &Values, reals: &Reals<S>) -> Result<Self, SetupError> {
         let shaft = Shaft::new(reals);
         let operation = Operation {
             collective: reals[real::COLLECTIVE],
@@ -67,16 +68,17 @@ impl<S: Scalar> Shaft<S> {
     /// The hub frame is the ground frame (x forward, y left, z up) turned by `tilt` about its y
     /// axis, so that positive tilt leans the shaft forward, and then by `lateralTilt` about the x
     /// axis that came of it, so that positive lateral tilt leans the shaft to the right.
-    pub fn new(reals: &[S]) -> Self {
+    pub fn new(reals: &Reals<S>) -> Self {
         let (zero, one) = (S::zero(), S::one());
-        let turn = |place: usize| (reals[place].sin(), reals[place].cos());
+        let turn = |angle: RealRef| (reals[angle].sin(), reals[angle].cos());
         let (sin_y, cos_y) = turn(real::TILT);
         let (sin_x, cos_x) = turn(real::LATERAL_TILT);
         let tilt = Matrix3::new(cos_y, zero, sin_y, zero, one, zero, -sin_y, zero, cos_y);
         let lateral = Matrix3::new(one, zero, zero, zero, cos_x, -sin_x, zero, sin_x, cos_x);
         let hub_to_ground = tilt * lateral;
 
-        let vector = |x: usize, y: usize, z: usize| Vector3::new(reals[x], reals[y], reals[z]);
+        let vector =
+            |x: RealRef, y: RealRef, z: RealRef| Vector3::new(reals[x], reals[y], reals[z]);
         let velocity = vector(real::VELOCITY_1, real::VELOCITY_2, real::VELOCITY_3);
         let wind = vector(real::WIND_1, real::WIND_2, real::WIND_3);
         let angular_velocity = vector(
@@ -97,7 +99,7 @@ impl<S: Scalar> Shaft<S> {
     }
 }
 
-fn air<S: Scalar>(values: &Values, reals: &[S]) -> Result<Air<S>, SetupError> {
+fn air<S: Scalar>(values: &Values, reals: &Reals<S>) -> Result<Air<S>, SetupError> {
     Ok(
         match setup::choice(values, integer::AIR__ATMOSPHERE, Atmosphere::from_integer)? {
             Atmosphere::Isa => Air::standard(reals[real::ALTITUDE]),

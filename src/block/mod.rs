@@ -2,38 +2,43 @@
 //! Neutral of the FMI version.
 
 mod bytes;
-mod course;
 mod coverage;
 mod derivative;
 mod flight;
 mod integrate;
 mod location;
 mod outputs;
+mod ramp;
+mod references;
 mod setup;
 mod shown;
 mod snapshot;
-mod states;
+mod state_vector;
 mod values;
 pub mod variables;
 
-pub use bytes::{Damage, Reader};
+pub use bytes::{DecodeError, Reader};
 pub use derivative::DerivativeError;
 pub use location::path_from_uri;
+pub use references::{Booleans, Integers, Names, PerVariable, Reals, Reference, Strings};
 pub use setup::SetupError;
 pub use snapshot::Snapshot;
 pub use values::{Stage, ValueError, Values};
 
-use course::Course;
 use coverage::Coverage;
 use flight::Flight;
 use integrate::{Inputs, Memory};
 use num_dual::Dual64;
 use outputs::{write_outputs, write_stations};
+use ramp::Ramp;
 use rotor::{Operation, Response, Rotor, SolveError};
-use states::{read_states, write_derivatives, write_states};
+use state_vector::{StateVector, read_states, write_derivatives, write_states};
 use std::path::PathBuf;
 use thiserror::Error;
-use variables::{Causality, DriveMode, FlowState, REALS, STATES, integer, is_state, real};
+use variables::{
+    BooleanRef, Causality, DriveMode, FlowState, IntegerRef, REALS, RealRef, STATES, StringRef,
+    integer, real,
+};
 
 /// Why the outputs could not be computed; they keep their last values.
 #[derive(Debug, Error, Clone, PartialEq)]
@@ -80,7 +85,7 @@ pub struct RotorBlock {
     /// The states of the rotor, which stand among the values as well, and where they come from.
     memory: Memory,
     /// How the inputs move in the next step.
-    course: Course,
+    ramp: Ramp,
     fresh: Fresh,
     /// The flow as last computed; the variable keeps its value between events.
     flow_state: i32,
@@ -101,7 +106,7 @@ impl RotorBlock {
             rotor: None,
             twin: None,
             memory: Memory::default(),
-            course: Course::default(),
+            ramp: Ramp::default(),
             fresh: Fresh::Nothing,
             notes: Vec::new(),
             coverage: Coverage::default(),
@@ -118,15 +123,20 @@ impl RotorBlock {
     }
 
     /// Sets Real variables: all, or none if one is refused.
-    pub fn set_reals(&mut self, references: &[u32], values: &[f64]) -> Result<(), ValueError> {
-        self.values.set_reals(self.stage, references, values)?;
-        let shapes = |r: &u32| {
-            let variable = &REALS[*r as usize];
+    pub fn set_reals(
+        &mut self,
+        names: &[impl Names<RealRef>],
+        values: &[f64],
+    ) -> Result<(), ValueError> {
+        self.values.set_reals(self.stage, names, values)?;
+        let mut references = names.iter().flat_map(|name| name.reference());
+        let shapes = |reference: RealRef| {
+            let variable = reference.variable();
             variable.causality == Causality::Parameter && !variable.tunable
         };
-        let shape_changes = self.stage == Stage::Configuring && references.iter().any(shapes);
+        let shape_changes = self.stage == Stage::Configuring && references.clone().any(shapes);
         self.invalidate(shape_changes);
-        if references.iter().any(|reference| is_state(*reference)) {
+        if references.any(RealRef::is_state) {
             self.memory = Memory::starting(read_states(&self.values.reals));
         }
         Ok(())
@@ -136,29 +146,41 @@ impl RotorBlock {
     /// next step, in which the inputs move linearly from their values; after it the inputs stand at its end.
     pub fn set_input_slopes(
         &mut self,
-        references: &[u32],
+        names: &[impl Names<RealRef>],
         slopes: &[f64],
     ) -> Result<(), ValueError> {
-        Values::set_slopes(references, slopes, &mut self.course.slopes)
+        Values::set_slopes(names, slopes, &mut self.ramp.slopes)
     }
 
     /// Sets Integer and Enumeration variables: all, or none if one is refused.
-    pub fn set_integers(&mut self, references: &[u32], values: &[i32]) -> Result<(), ValueError> {
-        self.values.set_integers(self.stage, references, values)?;
+    pub fn set_integers(
+        &mut self,
+        names: &[impl Names<IntegerRef>],
+        values: &[i32],
+    ) -> Result<(), ValueError> {
+        self.values.set_integers(self.stage, names, values)?;
         self.invalidate(self.stage == Stage::Configuring);
         Ok(())
     }
 
     /// Sets Boolean variables, 0 being false and 1 true: all, or none if one is refused.
-    pub fn set_booleans(&mut self, references: &[u32], values: &[i32]) -> Result<(), ValueError> {
-        self.values.set_booleans(self.stage, references, values)?;
+    pub fn set_booleans(
+        &mut self,
+        names: &[impl Names<BooleanRef>],
+        values: &[i32],
+    ) -> Result<(), ValueError> {
+        self.values.set_booleans(self.stage, names, values)?;
         self.invalidate(self.stage == Stage::Configuring);
         Ok(())
     }
 
     /// Sets String variables: all, or none if one is refused.
-    pub fn set_strings(&mut self, references: &[u32], values: &[&str]) -> Result<(), ValueError> {
-        self.values.set_strings(self.stage, references, values)?;
+    pub fn set_strings(
+        &mut self,
+        names: &[impl Names<StringRef>],
+        values: &[&str],
+    ) -> Result<(), ValueError> {
+        self.values.set_strings(self.stage, names, values)?;
         self.invalidate(self.stage == Stage::Configuring);
         Ok(())
     }
@@ -213,7 +235,7 @@ impl RotorBlock {
     /// Moves on by `duration` s (> 0). During it the inputs are constant, or move by the derivatives that were
     /// set. If that fails, states, inputs and outputs keep their values.
     pub fn step(&mut self, duration: f64) -> Result<(), BlockError> {
-        if self.course.is_moving() {
+        if self.ramp.is_moving() {
             return self.step_with_moving_inputs(duration);
         }
         let flight = Flight::new(&self.values)?;
@@ -234,21 +256,20 @@ impl RotorBlock {
             let memory = advanced.map_err(|e| self.unsolved(e))?;
             self.publish(&flight, memory)?;
         }
-        self.course.end();
+        self.ramp.end();
         Ok(())
     }
 
     fn step_with_moving_inputs(&mut self, duration: f64) -> Result<(), BlockError> {
         let flight = Flight::new(&self.values)?;
         let azimuth_step = self.values.reals[real::NUMERICS__AZIMUTH_STEP];
-        self.course.begin(&self.values, duration)?;
+        self.ramp.begin(&self.values, duration)?;
         let memory = self.memory;
         self.rotor()?;
-        let (course, values) = (&mut self.course, &self.values);
+        let (ramp, values) = (&mut self.ramp, &self.values);
         // The choices among the values, which alone can be wrong, are those of the beginning.
-        let operation_at = |offset| {
-            Flight::new(course.at(values, offset)).map_or(flight.operation, |f| f.operation)
-        };
+        let operation_at =
+            |offset| Flight::new(ramp.at(values, offset)).map_or(flight.operation, |f| f.operation);
         let inputs = Inputs::Moving(operation_at);
         let advanced = self
             .rotor
@@ -260,12 +281,12 @@ impl RotorBlock {
             None => memory, // `self.rotor` has made one
         };
         let start = self.values.reals;
-        self.values.reals = self.course.at(&self.values, duration).reals;
+        self.values.reals = self.ramp.at(&self.values, duration).reals;
         let published = Flight::new(&self.values)
             .map_err(BlockError::from)
             .and_then(|flight| self.publish(&flight, memory));
         match published {
-            Ok(()) => self.course.end(),
+            Ok(()) => self.ramp.end(),
             Err(_) => self.values.reals = start,
         }
         published
@@ -274,14 +295,11 @@ impl RotorBlock {
     // ------------------------------------------------------------ integration by the importer
 
     /// The continuous states in the order of `STATES`; those of the start while the block is being configured.
-    pub fn states(&mut self, out: &mut [f64]) -> Result<(), BlockError> {
+    pub fn states(&mut self) -> Result<StateVector, BlockError> {
         if self.stage == Stage::Configuring {
             self.update()?;
         }
-        for (slot, row) in out.iter_mut().zip(&STATES) {
-            *slot = self.values.reals[row.place];
-        }
-        Ok(())
+        Ok(STATES.map(|row| self.values.reals[row.value]))
     }
 
     /// Sets the continuous states, all or none.
@@ -290,7 +308,7 @@ impl RotorBlock {
             let given = states.len();
             return Err(ValueError::StateCount { given });
         }
-        let references = STATES.map(|row| row.place as u32);
+        let references = STATES.map(|row| row.value);
         let (fresh, before) = (self.fresh, self.memory.state);
         self.set_reals(&references, states)?;
         // Solvers move each state by itself for their Jacobian; one that does not count leaves what is computed valid.
@@ -305,12 +323,9 @@ impl RotorBlock {
     }
 
     /// The derivatives of the continuous states in time, per second, for the present inputs and states.
-    pub fn derivatives(&mut self, out: &mut [f64]) -> Result<(), BlockError> {
+    pub fn derivatives(&mut self) -> Result<StateVector, BlockError> {
         self.update_derivatives()?;
-        for (slot, row) in out.iter_mut().zip(&STATES) {
-            *slot = self.values.reals[row.derivative];
-        }
-        Ok(())
+        Ok(STATES.map(|row| self.values.reals[row.derivative]))
     }
 
     fn update_derivatives(&mut self) -> Result<(), BlockError> {
@@ -414,7 +429,7 @@ impl RotorBlock {
     }
 
     /// An error if anything that is computed is not finite.
-    fn check_finite(&self, reals: &[f64; REALS.len()]) -> Result<(), BlockError> {
+    fn check_finite(&self, reals: &Reals) -> Result<(), BlockError> {
         for (variable, value) in REALS.iter().zip(reals) {
             if variable.causality.is_computed() && !value.is_finite() {
                 return Err(BlockError::NotFinite {
@@ -457,15 +472,13 @@ mod tests {
         ] {
             let mut block = RotorBlock::new(RESOURCES.into());
             let inflow = variables::InflowModel::PittPetersDynamic as i32;
-            let references =
-                [integer::MODELS__INFLOW, integer::DRIVE__MODE].map(|place| place as u32);
+            let references = [integer::MODELS__INFLOW, integer::DRIVE__MODE];
             block.set_integers(&references, &[inflow, drive as i32])?;
-            block.set_booleans(&[boolean::FLAPPING__ENABLED as u32], &[1])?;
+            block.set_booleans(&[boolean::FLAPPING__ENABLED], &[1])?;
             block.start()?;
             block.begin_integration()?;
-            let (mut states, mut still) = ([0.0; STATES.len()], [0.0; STATES.len()]);
-            block.states(&mut states)?;
-            block.derivatives(&mut still)?;
+            let states = block.states()?;
+            let still = block.derivatives()?;
             let mut counting = 0;
             for i in 0..STATES.len() {
                 let mut moved = states;
@@ -473,16 +486,14 @@ mod tests {
                 block.set_states(&moved)?;
                 let is_valid = block.fresh != Fresh::Nothing;
                 block.fresh = Fresh::Nothing;
-                let mut rates = [0.0; STATES.len()];
-                block.derivatives(&mut rates)?;
+                let rates = block.derivatives()?;
                 if is_valid {
                     assert_eq!(rates, still, "state {i}");
                 } else {
                     counting += 1;
                 }
                 block.set_states(&states)?;
-                block.derivatives(&mut rates)?;
-                assert_eq!(rates, still);
+                assert_eq!(block.derivatives()?, still);
             }
             assert_eq!(counting, expected);
         }

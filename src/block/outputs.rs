@@ -1,18 +1,18 @@
 //! What the rotor answers, as values of the outputs.
 
-use super::{flight::Shaft, variables::real};
+use super::{flight::Shaft, references::Reals, variables::real};
 use core::f64::consts::{PI, SQRT_2};
 use rotor::{Drive, Operation, Performance, Rotor, scalar::Scalar};
 
-/// Number of stations along the blade: of each quantity so many variables stand in a row.
-const STATIONS: usize = real::STATION_20__RADIUS - real::STATION_1__RADIUS + 1;
+/// Number of stations along the blade.
+const STATIONS: usize = real::STATION__RADIUS.len();
 
 /// Tip speed, m/s, up to which a rotor counts as standing still, where coefficients mean nothing.
 const STANDSTILL: f64 = 1e-6;
 
 /// Writes the outputs among the Real variables.
 pub fn write_outputs<S: Scalar>(
-    reals: &mut [S],
+    reals: &mut Reals<S>,
     rotor: &Rotor<S>,
     performance: &Performance<S>,
     shaft: &Shaft<S>,
@@ -90,24 +90,24 @@ pub fn write_outputs<S: Scalar>(
 }
 
 /// Writes what goes on along the blade, at the middles of equal parts from cutout to tip.
-pub fn write_stations<S: Scalar>(reals: &mut [S], rotor: &Rotor<S>) {
+pub fn write_stations<S: Scalar>(reals: &mut Reals<S>, rotor: &Rotor<S>) {
     let geometry = rotor.geometry();
     let (cutout, blades) = (geometry.cutout(), f64::from(geometry.blades));
     for i in 0..STATIONS {
         let part = (i as f64 + 0.5) / STATIONS as f64;
         let radius = cutout + part * (1.0 - cutout);
         let load = rotor.load_at(radius);
-        for (first, value) in [
-            (real::STATION_1__RADIUS, S::constant(radius)),
-            (real::STATION_1__ANGLE_OF_ATTACK, load.angle_of_attack),
-            (real::STATION_1__LIFT_COEFFICIENT, load.lift_coefficient),
-            (real::STATION_1__DRAG_COEFFICIENT, load.drag_coefficient),
-            (real::STATION_1__INDUCED_VELOCITY, load.induced_velocity),
-            (real::STATION_1__REYNOLDS, load.reynolds),
-            (real::STATION_1__MACH, load.mach),
-            (real::STATION_1__THRUST_PER_LENGTH, load.thrust / blades),
+        for (places, value) in [
+            (real::STATION__RADIUS, S::constant(radius)),
+            (real::STATION__ANGLE_OF_ATTACK, load.angle_of_attack),
+            (real::STATION__LIFT_COEFFICIENT, load.lift_coefficient),
+            (real::STATION__DRAG_COEFFICIENT, load.drag_coefficient),
+            (real::STATION__INDUCED_VELOCITY, load.induced_velocity),
+            (real::STATION__REYNOLDS, load.reynolds),
+            (real::STATION__MACH, load.mach),
+            (real::STATION__THRUST_PER_LENGTH, load.thrust / blades),
         ] {
-            reals[first + i] = value;
+            reals[places[i]] = value;
         }
     }
 }

@@ -5,7 +5,8 @@ use super::{
     values::Values,
     variables::{
         BladesModel, CompressibilityModel, DescentModel, GroundEffectModel, InflowModel,
-        Initialization, LiftModel, Rotation, TipLossModel, boolean, integer, real, string,
+        Initialization, IntegerRef, LiftModel, Rotation, TipLossModel, boolean, integer, real,
+        string,
     },
 };
 use rotor::{
@@ -272,10 +273,10 @@ pub fn start(values: &Values) -> Result<Start, SetupError> {
 /// The enumeration's value behind an integer variable.
 pub fn choice<T>(
     values: &Values,
-    place: usize,
+    reference: IntegerRef,
     from_integer: fn(i32) -> Option<T>,
 ) -> Result<T, SetupError> {
-    let value = values.integers[place];
-    let name = super::variables::INTEGERS[place].name;
+    let value = values.integers[reference];
+    let name = reference.variable().name;
     from_integer(value).ok_or(SetupError::Choice { name, value })
 }

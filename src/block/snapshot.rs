@@ -2,13 +2,14 @@
 
 use super::{
     BlockError, Fresh, RotorBlock,
-    bytes::{Damage, Reader},
-    course::Slopes,
+    bytes::{DecodeError, Reader},
     integrate::{LONGEST_CELL, Memory, Since},
+    ramp::Slopes,
+    references::Reals,
     setup,
-    states::{from_vector, read_states, to_vector, write_states},
+    state_vector::{from_vector, read_states, to_vector, write_states},
     values::{Stage, Values},
-    variables::{Causality, INTEGERS, REALS, STRINGS},
+    variables::{Causality, INTEGERS, REALS, STRINGS, integer},
 };
 use nalgebra::Vector3;
 use rotor::{Drive, Operation, State, air::Air};
@@ -30,8 +31,8 @@ impl RotorBlock {
         Snapshot {
             values: self.values.clone(),
             stage: self.stage,
-            slopes: self.course.slopes,
-            past_slopes: self.course.past,
+            slopes: self.ramp.slopes,
+            past_slopes: self.ramp.past,
             memory: self.memory,
             fresh: self.fresh,
             flow_state: self.flow_state,
@@ -53,8 +54,8 @@ impl RotorBlock {
         }
         self.values.clone_from(&snapshot.values);
         self.stage = snapshot.stage;
-        self.course.slopes = snapshot.slopes;
-        self.course.past = snapshot.past_slopes;
+        self.ramp.slopes = snapshot.slopes;
+        self.ramp.past = snapshot.past_slopes;
         self.memory = snapshot.memory;
         self.fresh = snapshot.fresh;
         self.flow_state = snapshot.flow_state;
@@ -88,7 +89,7 @@ impl Snapshot {
                 .iter()
                 .for_each(|v| out.extend_from_slice(&v.to_le_bytes()));
         };
-        reals(&self.values.reals);
+        reals(&*self.values.reals);
         reals(&self.slopes);
         reals(&self.past_slopes);
         reals(&to_vector(&self.memory.state));
@@ -122,9 +123,9 @@ impl Snapshot {
 
     /// Reads what `write` wrote. Bytes that no block can have written are refused: values that are out of their
     /// ranges, not finite or that contradict each other.
-    pub fn read(reader: &mut Reader) -> Result<Self, Damage> {
+    pub fn read(reader: &mut Reader) -> Result<Self, DecodeError> {
         let mut values = Values {
-            reals: reader.reals()?,
+            reals: Reals::new(reader.reals()?),
             ..Values::default()
         };
         let slopes = reader.reals()?;
@@ -134,32 +135,32 @@ impl Snapshot {
         let since = match is_since {
             0.0 => None,
             1.0 => Some(read_since(reader)?),
-            _ => return Err(Damage::Value("the integration".into())),
+            _ => return Err(DecodeError::Value("the integration".into())),
         };
-        for value in &mut values.integers {
+        for value in values.integers.iter_mut() {
             *value = reader.integer()?;
         }
         let flow_state = reader.integer()?;
-        for value in &mut values.booleans {
+        for value in values.booleans.iter_mut() {
             *value = match reader.byte()? {
                 0 => false,
                 1 => true,
-                _ => return Err(Damage::Value("a Boolean variable".into())),
+                _ => return Err(DecodeError::Value("a Boolean variable".into())),
             };
         }
         let stage = match reader.byte()? {
             0 => Stage::Configuring,
             1 => Stage::Running,
             2 => Stage::Integrating,
-            _ => return Err(Damage::Value("the stage".into())),
+            _ => return Err(DecodeError::Value("the stage".into())),
         };
         let fresh = match reader.byte()? {
             0 => Fresh::Nothing,
             1 => Fresh::Derivatives,
             2 => Fresh::All,
-            _ => return Err(Damage::Value("the outputs".into())),
+            _ => return Err(DecodeError::Value("the outputs".into())),
         };
-        for text in &mut values.strings {
+        for text in values.strings.iter_mut() {
             *text = reader.text()?;
         }
         let snapshot = Self {
@@ -176,8 +177,8 @@ impl Snapshot {
     }
 
     /// What holds for every block.
-    fn check(&self) -> Result<(), Damage> {
-        let wrong = |name: &str| Err(Damage::Value(name.to_owned()));
+    fn check(&self) -> Result<(), DecodeError> {
+        let wrong = |name: &str| Err(DecodeError::Value(name.to_owned()));
         for (variable, value) in REALS.iter().zip(self.values.reals) {
             let is_in_range =
                 variable.causality.is_computed() || (variable.min..=variable.max).contains(&value);
@@ -197,7 +198,7 @@ impl Snapshot {
                 return wrong(variable.name);
             }
         }
-        let flow = &INTEGERS[super::integer::FLOW_STATE];
+        let flow = integer::FLOW_STATE.variable();
         if !(flow.min..=flow.max).contains(&self.flow_state) {
             return wrong(flow.name);
         }
@@ -224,12 +225,12 @@ fn is_finite(state: &State) -> bool {
     to_vector(state).iter().all(|value| value.is_finite())
 }
 
-fn read_since(reader: &mut Reader) -> Result<Since, Damage> {
+fn read_since(reader: &mut Reader) -> Result<Since, DecodeError> {
     let operation = operation_from_numbers(&reader.reals()?)?;
     let state = from_vector(&reader.reals()?);
     let [elapsed] = reader.reals()?;
     if !is_finite(&state) || !(0.0..=LONGEST_CELL).contains(&elapsed) {
-        return Err(Damage::Value("the integration".into()));
+        return Err(DecodeError::Value("the integration".into()));
     }
     Ok(Since {
         operation,
@@ -285,7 +286,7 @@ fn operation_to_numbers(operation: &Operation) -> [f64; OPERATION] {
 }
 
 /// What `operation_to_numbers` made numbers of. The block only compares it with the present operation.
-fn operation_from_numbers(numbers: &[f64; OPERATION]) -> Result<Operation, Damage> {
+fn operation_from_numbers(numbers: &[f64; OPERATION]) -> Result<Operation, DecodeError> {
     let vector = |first: usize| Vector3::from_column_slice(&numbers[first..first + 3]);
     let drive = match numbers[15] {
         0.0 => Drive::Speed,
@@ -293,7 +294,7 @@ fn operation_from_numbers(numbers: &[f64; OPERATION]) -> Result<Operation, Damag
             torque: numbers[16],
             inertia: numbers[17],
         },
-        _ => return Err(Damage::Value("the integration".into())),
+        _ => return Err(DecodeError::Value("the integration".into())),
     };
     Ok(Operation {
         collective: numbers[0],
@@ -316,6 +317,7 @@ fn operation_from_numbers(numbers: &[f64; OPERATION]) -> Result<Operation, Damag
 
 #[cfg(test)]
 mod tests {
+    use super::super::variables::{real, string};
     use super::*;
 
     fn bytes(snapshot: &Snapshot) -> Vec<u8> {
@@ -337,9 +339,9 @@ mod tests {
     #[test]
     fn bytes_make_the_snapshot_of_which_they_were_made_and_end_with_it() {
         let mut block = RotorBlock::new("/nowhere".into());
-        block.set_reals(&[0], &[0.2]).unwrap();
-        block.set_input_slopes(&[1], &[0.25]).unwrap();
-        block.set_strings(&[0], &["ü"]).unwrap();
+        block.set_reals(&[real::COLLECTIVE], &[0.2]).unwrap();
+        block.set_input_slopes(&[real::RPM], &[0.25]).unwrap();
+        block.set_strings(&[string::AIRFOIL__FILE], &["ü"]).unwrap();
         let snapshot = block.snapshot();
         let written = bytes(&snapshot);
         let mut reader = Reader::new(&written);
@@ -347,7 +349,7 @@ mod tests {
         assert!(reader.end().is_ok());
         for end in 0..written.len() {
             let error = Snapshot::read(&mut Reader::new(&written[..end])).unwrap_err();
-            assert_eq!(error, Damage::Short);
+            assert_eq!(error, DecodeError::Short);
         }
     }
 
@@ -359,23 +361,26 @@ mod tests {
             let mut bad = good.clone();
             change(&mut bad);
             match Snapshot::read(&mut Reader::new(&bytes(&bad))) {
-                Err(Damage::Value(name)) => name,
+                Err(DecodeError::Value(name)) => name,
                 other => panic!("{other:?}"),
             }
         };
-        let blades = super::super::integer::GEOMETRY__NUMBER_OF_BLADES;
-        assert_eq!(refused(&|s| s.values.reals[0] = f64::NAN), "collective");
-        assert_eq!(refused(&|s| s.values.reals[1] = -1.0), "rpm");
+        let blades = integer::GEOMETRY__NUMBER_OF_BLADES;
+        assert_eq!(
+            refused(&|s| s.values.reals[real::COLLECTIVE] = f64::NAN),
+            "collective"
+        );
+        assert_eq!(refused(&|s| s.values.reals[real::RPM] = -1.0), "rpm");
         assert_eq!(refused(&|s| s.slopes[1] = f64::INFINITY), "rpm");
         assert_eq!(refused(&|s| s.past_slopes[0] = f64::NAN), "collective");
         assert_eq!(
             refused(&|s| s.values.integers[blades] = 0),
-            INTEGERS[blades].name
+            blades.variable().name
         );
         assert_eq!(refused(&|s| s.flow_state = 9), "flowState");
         assert_eq!(
-            refused(&|s| s.values.strings[0] = "\0".into()),
-            STRINGS[0].name
+            refused(&|s| s.values.strings[string::AIRFOIL__FILE] = "\0".into()),
+            string::AIRFOIL__FILE.variable().name
         );
         assert_eq!(
             refused(&|s| s.memory.state.azimuth = f64::NAN),

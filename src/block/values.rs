@@ -1,19 +1,25 @@
 //! The values of all variables, and the rules under which they may be set.
 
-use super::course::Slopes;
-use super::shown::shown;
-use super::variables::{BOOLEANS, Causality, INTEGERS, REALS, STATES, STRINGS, Variable, is_state};
+use super::{
+    ramp::Slopes,
+    references::{
+        BooleanRef, Booleans, IntegerRef, Integers, Names, RealRef, Reals, Reference, StringRef,
+        Strings,
+    },
+    shown::shown,
+    variables::{BOOLEANS, Causality, INTEGERS, REALS, STATES, STRINGS, Variable},
+};
 use thiserror::Error;
 
 /// Why a value was not read or set; nothing has changed then.
 #[derive(Debug, Error, Clone, PartialEq)]
 pub enum ValueError {
     #[error(
-        "value reference {reference} is no {kind} variable of this FMU (they go from 0 to {last}); take it from modelDescription.xml"
+        "value reference {reference} is no {base_type} variable of this FMU (they go from 0 to {last}); take it from modelDescription.xml"
     )]
     Unknown {
         reference: u32,
-        kind: &'static str,
+        base_type: &'static str,
         last: usize,
     },
     #[error("{name} = {value} is not a finite number; set a finite value (it keeps {kept})")]
@@ -71,52 +77,21 @@ pub enum Stage {
 /// The values by value reference.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Values {
-    pub reals: [f64; REALS.len()],
-    pub integers: [i32; INTEGERS.len()],
-    pub booleans: [bool; BOOLEANS.len()],
-    pub strings: [String; STRINGS.len()],
+    pub reals: Reals,
+    pub integers: Integers,
+    pub booleans: Booleans,
+    pub strings: Strings,
 }
 
 impl Default for Values {
     fn default() -> Self {
         Self {
-            reals: REALS.map(|v| v.start),
-            integers: INTEGERS.map(|v| v.start),
-            booleans: BOOLEANS.map(|v| v.start),
-            strings: STRINGS.map(|v| v.start.to_owned()),
+            reals: Reals::new(REALS.map(|v| v.start)),
+            integers: Integers::new(INTEGERS.map(|v| v.start)),
+            booleans: Booleans::new(BOOLEANS.map(|v| v.start)),
+            strings: Strings::new(STRINGS.map(|v| v.start.to_owned())),
         }
     }
-}
-
-/// The row and place behind a value reference.
-fn find<T>(
-    table: &'static [Variable<T>],
-    kind: &'static str,
-    reference: u32,
-) -> Result<(usize, &'static Variable<T>), ValueError> {
-    let place = reference as usize;
-    let row = table.get(place);
-    row.map(|variable| (place, variable))
-        .ok_or(ValueError::Unknown {
-            reference,
-            kind,
-            last: table.len().saturating_sub(1),
-        })
-}
-
-/// Reads the values behind `references` into `out`.
-fn read<T, V: Copy + Into<O>, O>(
-    table: &'static [Variable<T>],
-    kind: &'static str,
-    values: &[V],
-    references: &[u32],
-    out: &mut [O],
-) -> Result<(), ValueError> {
-    for (reference, slot) in references.iter().zip(out) {
-        let (place, _) = find(table, kind, *reference)?;
-        *slot = values[place].into();
-    }
-    Ok(())
 }
 
 /// What the causality and the stage say about setting a variable to a value that differs, or not,
@@ -141,47 +116,34 @@ fn may_set<T>(
 }
 
 impl Values {
-    pub fn read_reals(&self, references: &[u32], out: &mut [f64]) -> Result<(), ValueError> {
-        read(&REALS, "Real", &self.reals, references, out)
+    /// The value of a Real variable.
+    pub fn real(&self, name: impl Names<RealRef>) -> Result<f64, ValueError> {
+        Ok(self.reals[name.reference()?])
     }
 
-    pub fn read_integers(&self, references: &[u32], out: &mut [i32]) -> Result<(), ValueError> {
-        read(
-            &INTEGERS,
-            "Integer or Enumeration",
-            &self.integers,
-            references,
-            out,
-        )
+    /// The value of an Integer variable, or the number of an enumeration's item.
+    pub fn integer(&self, name: impl Names<IntegerRef>) -> Result<i32, ValueError> {
+        Ok(self.integers[name.reference()?])
     }
 
-    /// Reads Boolean variables, 0 being false and 1 true.
-    pub fn read_booleans(&self, references: &[u32], out: &mut [i32]) -> Result<(), ValueError> {
-        read(&BOOLEANS, "Boolean", &self.booleans, references, out)
-    }
-
-    /// The row of a Real variable.
-    pub fn real(reference: u32) -> Result<&'static Variable<f64>, ValueError> {
-        Ok(find(&REALS, "Real", reference)?.1)
-    }
-
-    /// Place of a String variable.
-    pub fn string_place(reference: u32) -> Result<usize, ValueError> {
-        Ok(find(&STRINGS, "String", reference)?.0)
+    /// The value of a Boolean variable.
+    pub fn boolean(&self, name: impl Names<BooleanRef>) -> Result<bool, ValueError> {
+        Ok(self.booleans[name.reference()?])
     }
 
     /// Sets all of the values or, if one is refused, none.
     pub fn set_reals(
         &mut self,
         stage: Stage,
-        references: &[u32],
+        names: &[impl Names<RealRef>],
         values: &[f64],
     ) -> Result<(), ValueError> {
-        for (reference, value) in references.iter().zip(values) {
-            let (place, variable) = find(&REALS, "Real", *reference)?;
-            let kept = self.reals[place];
+        for (name, value) in names.iter().zip(values) {
+            let reference = name.reference()?;
+            let variable = reference.variable();
+            let kept = self.reals[reference];
             let name = variable.name;
-            if !is_state(*reference) {
+            if !reference.is_state() {
                 may_set(variable, stage, *value != kept, || shown(kept))?;
             } else if stage != Stage::Integrating {
                 return Err(ValueError::State { name });
@@ -208,20 +170,21 @@ impl Values {
                 });
             }
         }
-        for (reference, value) in references.iter().zip(values) {
-            self.reals[*reference as usize] = *value;
+        for (name, value) in names.iter().zip(values) {
+            self.reals[name.reference()?] = *value;
         }
         Ok(())
     }
 
     /// Takes the derivatives in time of inputs, or none if one is refused, into `slopes`, by value reference.
     pub fn set_slopes(
-        references: &[u32],
+        names: &[impl Names<RealRef>],
         values: &[f64],
         slopes: &mut Slopes,
     ) -> Result<(), ValueError> {
-        for (reference, value) in references.iter().zip(values) {
-            let (_, variable) = find(&REALS, "Real", *reference)?;
+        for (name, value) in names.iter().zip(values) {
+            let reference = name.reference()?;
+            let variable = reference.variable();
             let name = variable.name;
             if variable.causality != Causality::Input {
                 return Err(ValueError::NoInput { name });
@@ -231,8 +194,8 @@ impl Values {
                 return Err(ValueError::SlopeNotFinite { name, value });
             }
         }
-        for (reference, value) in references.iter().zip(values) {
-            slopes[*reference as usize] = *value;
+        for (name, value) in names.iter().zip(values) {
+            slopes[name.reference()?.place()] = *value;
         }
         Ok(())
     }
@@ -241,12 +204,13 @@ impl Values {
     pub fn set_integers(
         &mut self,
         stage: Stage,
-        references: &[u32],
+        names: &[impl Names<IntegerRef>],
         values: &[i32],
     ) -> Result<(), ValueError> {
-        for (reference, value) in references.iter().zip(values) {
-            let (place, variable) = find(&INTEGERS, "Integer or Enumeration", *reference)?;
-            let kept = self.integers[place];
+        for (name, value) in names.iter().zip(values) {
+            let reference = name.reference()?;
+            let variable = reference.variable();
+            let kept = self.integers[reference];
             may_set(variable, stage, *value != kept, || kept.to_string())?;
             let name = variable.name;
             if (variable.min..=variable.max).contains(value) {
@@ -270,8 +234,8 @@ impl Values {
                 kept,
             });
         }
-        for (reference, value) in references.iter().zip(values) {
-            self.integers[*reference as usize] = *value;
+        for (name, value) in names.iter().zip(values) {
+            self.integers[name.reference()?] = *value;
         }
         Ok(())
     }
@@ -280,12 +244,13 @@ impl Values {
     pub fn set_booleans(
         &mut self,
         stage: Stage,
-        references: &[u32],
+        names: &[impl Names<BooleanRef>],
         values: &[i32],
     ) -> Result<(), ValueError> {
-        for (reference, value) in references.iter().zip(values) {
-            let (place, variable) = find(&BOOLEANS, "Boolean", *reference)?;
-            let kept = i32::from(self.booleans[place]);
+        for (name, value) in names.iter().zip(values) {
+            let reference = name.reference()?;
+            let variable = reference.variable();
+            let kept = i32::from(self.booleans[reference]);
             may_set(variable, stage, *value != kept, || kept.to_string())?;
             if ![0, 1].contains(value) {
                 return Err(ValueError::NoChoice {
@@ -296,8 +261,8 @@ impl Values {
                 });
             }
         }
-        for (reference, value) in references.iter().zip(values) {
-            self.booleans[*reference as usize] = *value == 1;
+        for (name, value) in names.iter().zip(values) {
+            self.booleans[name.reference()?] = *value == 1;
         }
         Ok(())
     }
@@ -306,16 +271,17 @@ impl Values {
     pub fn set_strings(
         &mut self,
         stage: Stage,
-        references: &[u32],
+        names: &[impl Names<StringRef>],
         values: &[&str],
     ) -> Result<(), ValueError> {
-        for (reference, value) in references.iter().zip(values) {
-            let (place, variable) = find(&STRINGS, "String", *reference)?;
-            let kept = &self.strings[place];
+        for (name, value) in names.iter().zip(values) {
+            let reference = name.reference()?;
+            let variable = reference.variable();
+            let kept = &self.strings[reference];
             may_set(variable, stage, value != kept, || format!("{kept:?}"))?;
         }
-        for (reference, value) in references.iter().zip(values) {
-            (*value).clone_into(&mut self.strings[*reference as usize]);
+        for (name, value) in names.iter().zip(values) {
+            (*value).clone_into(&mut self.strings[name.reference()?]);
         }
         Ok(())
     }
@@ -345,7 +311,7 @@ mod tests {
     fn a_refused_value_changes_nothing_and_says_what_is_right() {
         let mut values = Values::default();
         let before = values.clone();
-        let refs = [real::COLLECTIVE as u32, real::GEOMETRY__RADIUS as u32];
+        let refs = [real::COLLECTIVE, real::GEOMETRY__RADIUS];
         for (bad, part) in [
             (
                 -1.0,
@@ -363,8 +329,7 @@ mod tests {
             assert!(error.to_string().contains(part), "{error}");
             assert_eq!(values, before);
         }
-        let error =
-            values.set_integers(Stage::Configuring, &[integer::MODELS__INFLOW as u32], &[99]);
+        let error = values.set_integers(Stage::Configuring, &[integer::MODELS__INFLOW], &[99]);
         let error = error.unwrap_err().to_string();
         assert!(
             error.contains(
@@ -372,7 +337,7 @@ mod tests {
             ),
             "{error}"
         );
-        let refs = [boolean::FLAPPING__ENABLED as u32; 2];
+        let refs = [boolean::FLAPPING__ENABLED; 2];
         let error = values.set_booleans(Stage::Configuring, &refs, &[1, 2]);
         assert_eq!(
             error.unwrap_err().to_string(),
@@ -380,7 +345,7 @@ mod tests {
         );
         assert_eq!(values, before);
         let error = values
-            .set_reals(Stage::Configuring, &[9999], &[0.0])
+            .set_reals(Stage::Configuring, &[9999_u32], &[0.0])
             .unwrap_err();
         assert!(
             error
@@ -393,7 +358,7 @@ mod tests {
     #[test]
     fn fixed_parameters_keep_their_values_while_running_and_outputs_always() {
         let mut values = Values::default();
-        let set = |v: &mut Values, r: usize, x| v.set_reals(Stage::Running, &[r as u32], &[x]);
+        let set = |v: &mut Values, r, x| v.set_reals(Stage::Running, &[r], &[x]);
         assert!(set(&mut values, real::COLLECTIVE, 0.2).is_ok());
         assert!(set(&mut values, real::AIR__DENSITY, 1.0).is_ok(), "tunable");
         assert!(
@@ -409,14 +374,14 @@ mod tests {
         let error = set(&mut values, real::THRUST, 1.0).unwrap_err();
         assert_eq!(error, ValueError::Output { name: "thrust" });
         let place = boolean::FLAPPING__ENABLED;
-        let error = values.set_booleans(Stage::Running, &[place as u32], &[1]);
+        let error = values.set_booleans(Stage::Running, &[place], &[1]);
         assert!(
             error
                 .unwrap_err()
                 .to_string()
                 .contains("flapping.enabled is a fixed parameter and keeps 0")
         );
-        let error = values.set_strings(Stage::Running, &[string::AIRFOIL__FILE as u32], &["x"]);
+        let error = values.set_strings(Stage::Running, &[string::AIRFOIL__FILE], &["x"]);
         assert!(
             error
                 .unwrap_err()

@@ -4,6 +4,8 @@
 // Defaults and limits stand as numbers in the table, also where they are pi.
 #![allow(clippy::approx_constant)]
 
+pub use super::references::{BooleanRef, IntegerRef, RealRef, StringRef};
+
 /// What a variable is for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Causality {
@@ -37,10 +39,9 @@ pub struct Variable<T: 'static> {
 /// One of the continuous states: its value and its derivative are Real variables.
 #[derive(Debug, Clone, Copy)]
 pub struct ContinuousState {
-    /// Value reference.
-    pub place: usize,
-    /// Value reference of the derivative in time.
-    pub derivative: usize,
+    pub value: RealRef,
+    /// Its derivative in time.
+    pub derivative: RealRef,
     /// Order of magnitude, > 0.
     pub nominal: f64,
 }
@@ -50,18 +51,6 @@ impl Causality {
     pub fn is_computed(self) -> bool {
         matches!(self, Self::Output | Self::Local)
     }
-}
-
-/// Whether a value reference is that of a variable of the table that the block computes.
-pub fn is_computed<T>(table: &[Variable<T>], reference: u32) -> bool {
-    table
-        .get(reference as usize)
-        .is_some_and(|v| v.causality.is_computed())
-}
-
-/// Whether a value reference of a Real is that of a continuous state.
-pub fn is_state(reference: u32) -> bool {
-    REALS.get(reference as usize).is_some_and(|v| v.is_state)
 }
 
 include!(concat!(env!("OUT_DIR"), "/variables.rs"));

@@ -9,7 +9,7 @@ use super::{
     types::*,
 };
 use crate::block::{
-    RotorBlock, path_from_uri,
+    PerVariable, RotorBlock, path_from_uri,
     variables::{GUID, LOG_CATEGORIES, MODEL_IDENTIFIER},
 };
 use core::ffi::{CStr, c_char};
@@ -172,7 +172,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
             state: INSTANTIATED,
             block: RotorBlock::new(resources(location)),
             logger,
-            strings: Default::default(),
+            strings: PerVariable::new(Default::default()),
             experiment: Experiment::default(),
         };
         Box::into_raw(Box::new(instance)).cast()

@@ -32,8 +32,11 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
                 elements_mut(dvUnknown, nUnknown, "dvUnknown")?,
             )
         };
-        let block = &mut instance.block;
-        Ok(block.directional_derivative(unknowns, knowns, along, out)?)
+        let changes = (instance.block).directional_derivative(unknowns, knowns, along)?;
+        for (slot, change) in out.iter_mut().zip(changes) {
+            *slot = change;
+        }
+        Ok(())
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2GetDirectionalDerivative, body) }
@@ -63,7 +66,10 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
                 "order = {other}; this FMU has first derivatives of its outputs, pass 1"
             ));
         }
-        Ok(instance.block.output_rates(vr, value)?)
+        for (slot, rate) in value.iter_mut().zip(instance.block.output_rates(vr)?) {
+            *slot = rate;
+        }
+        Ok(())
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2GetRealOutputDerivatives, body) }

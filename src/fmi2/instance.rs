@@ -5,7 +5,10 @@ use super::{
     logger::{Category, Logger},
     types::{fmi2Component, fmi2Status},
 };
-use crate::block::{BlockError, RotorBlock, variables::STRINGS};
+use crate::block::{
+    BlockError, PerVariable, RotorBlock,
+    variables::{STRINGS, StringRef},
+};
 use std::{
     any::Any,
     ffi::CString,
@@ -18,7 +21,7 @@ pub struct Instance {
     pub block: RotorBlock,
     pub logger: Logger,
     /// What fmi2GetString handed out: valid until the next call, by value reference.
-    pub strings: [CString; STRINGS.len()],
+    pub strings: PerVariable<StringRef, CString, { STRINGS.len() }>,
     pub experiment: Experiment,
 }
 

@@ -150,7 +150,7 @@ pub unsafe extern "C" fn fmi2GetContinuousStates(
     x: *mut fmi2Real,
     nx: usize,
 ) -> fmi2Status {
-    let answer = |instance: &mut Instance, x: &mut [f64]| Ok(instance.block.states(x)?);
+    let answer = |instance: &mut Instance| Ok(instance.block.states()?);
     // SAFETY: passed on from the caller.
     unsafe { state_vector(c, Function::fmi2GetContinuousStates, x, nx, answer) }
 }
@@ -163,7 +163,7 @@ pub unsafe extern "C" fn fmi2GetDerivatives(
     derivatives: *mut fmi2Real,
     nx: usize,
 ) -> fmi2Status {
-    let answer = |instance: &mut Instance, out: &mut [f64]| Ok(instance.block.derivatives(out)?);
+    let answer = |instance: &mut Instance| Ok(instance.block.derivatives()?);
     // SAFETY: passed on from the caller.
     unsafe { state_vector(c, Function::fmi2GetDerivatives, derivatives, nx, answer) }
 }
@@ -176,12 +176,7 @@ pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(
     x_nominal: *mut fmi2Real,
     nx: usize,
 ) -> fmi2Status {
-    let answer = |_: &mut Instance, out: &mut [f64]| {
-        for (slot, state) in out.iter_mut().zip(&STATES) {
-            *slot = state.nominal;
-        }
-        Ok(())
-    };
+    let answer = |_: &mut Instance| Ok(STATES.map(|state| state.nominal));
     let function = Function::fmi2GetNominalsOfContinuousStates;
     // SAFETY: passed on from the caller.
     unsafe { state_vector(c, function, x_nominal, nx, answer) }
@@ -196,13 +191,14 @@ unsafe fn state_vector(
     function: Function,
     out: *mut fmi2Real,
     count: usize,
-    answer: impl FnOnce(&mut Instance, &mut [f64]) -> Result<(), Message>,
+    answer: impl FnOnce(&mut Instance) -> Result<[f64; STATES.len()], Message>,
 ) -> fmi2Status {
     let body = |instance: &mut Instance| {
         check_count(count, STATES.len(), "continuous states")?;
         // SAFETY: passed on from the caller.
         let out = unsafe { elements_mut(out, count, "the vector for the answer")? };
-        answer(instance, out)
+        out.copy_from_slice(&answer(instance)?);
+        Ok(())
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, function, body) }

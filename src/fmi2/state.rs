@@ -24,7 +24,7 @@ use super::{
     },
     types::*,
 };
-use crate::block::{Damage, Reader, Snapshot, Stage, variables::GUID};
+use crate::block::{DecodeError, Reader, Snapshot, Stage, variables::GUID};
 use std::ptr;
 use thiserror::Error;
 
@@ -67,7 +67,7 @@ enum NoState {
     #[error("the state was damaged: its checksum is wrong")]
     Checksum,
     #[error("the state cannot be used: {0}")]
-    Damage(#[from] Damage),
+    Content(#[from] DecodeError),
     #[error("the state cannot be used: it is not written as this FMU writes it")]
     Written,
 }
@@ -106,7 +106,7 @@ impl FmuState {
 
     fn from_bytes(bytes: &[u8]) -> Result<Self, NoState> {
         let mut reader = Reader::new(bytes);
-        let foreign = |_: Damage| NoState::Foreign;
+        let foreign = |_: DecodeError| NoState::Foreign;
         if reader.array::<8>().map_err(foreign)? != MAGIC {
             return Err(NoState::Foreign);
         }
@@ -141,8 +141,8 @@ impl FmuState {
         Ok(state)
     }
 
-    fn read(reader: &mut Reader) -> Result<Self, Damage> {
-        let wrong = |what: &str| Damage::Value(what.to_owned());
+    fn read(reader: &mut Reader) -> Result<Self, DecodeError> {
+        let wrong = |what: &str| DecodeError::Value(what.to_owned());
         let interface = Interface::from_type(reader.byte()?.into());
         let interface = interface.ok_or_else(|| wrong("the interface"))?;
         let state = States::from_le_bytes(reader.array()?);

@@ -10,9 +10,17 @@ use super::{
     types::*,
 };
 use crate::block::{
-    Values,
-    variables::{INTEGERS, REALS, is_computed, is_state},
+    Names,
+    variables::{IntegerRef, RealRef, StringRef},
 };
+
+/// Those of the importer's value references that exist.
+fn references<R>(vr: &[fmi2ValueReference]) -> impl Iterator<Item = R>
+where
+    fmi2ValueReference: Names<R>,
+{
+    vr.iter().flat_map(|number| number.reference())
+}
 
 /// # Safety
 /// As in the standard: `vr` and `value` have `nvr` elements.
@@ -26,15 +34,18 @@ pub unsafe extern "C" fn fmi2GetReal(
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
         let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
-        // The states are there, but in Initialization Mode.
-        let must_be_computed = |reference: &u32| {
-            is_computed(&REALS, *reference)
-                && (instance.state == INITIALIZATION_MODE || !is_state(*reference))
+        // The states have their values already, except in Initialization Mode.
+        let is_initializing = instance.state == INITIALIZATION_MODE;
+        let must_be_computed = |real: RealRef| {
+            real.variable().causality.is_computed() && (is_initializing || !real.is_state())
         };
-        if vr.iter().any(must_be_computed) {
+        if references(vr).any(must_be_computed) {
             instance.refresh()?;
         }
-        Ok(instance.block.values().read_reals(vr, value)?)
+        for (reference, slot) in vr.iter().zip(value) {
+            *slot = instance.block.values().real(*reference)?;
+        }
+        Ok(())
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2GetReal, body) }
@@ -52,12 +63,16 @@ pub unsafe extern "C" fn fmi2GetInteger(
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
         let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
-        // What is discrete keeps its value in Continuous-Time Mode.
+        // Discrete variables keep their values in Continuous-Time Mode.
         let is_held = instance.state == CONTINUOUS_TIME_MODE;
-        if !is_held && vr.iter().any(|r| is_computed(&INTEGERS, *r)) {
+        let is_computed = |integer: IntegerRef| integer.variable().causality.is_computed();
+        if !is_held && references(vr).any(is_computed) {
             instance.refresh()?;
         }
-        Ok(instance.block.values().read_integers(vr, value)?)
+        for (reference, slot) in vr.iter().zip(value) {
+            *slot = instance.block.values().integer(*reference)?;
+        }
+        Ok(())
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2GetInteger, body) }
@@ -75,7 +90,10 @@ pub unsafe extern "C" fn fmi2GetBoolean(
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
         let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
-        Ok(instance.block.values().read_booleans(vr, value)?)
+        for (reference, slot) in vr.iter().zip(value) {
+            *slot = instance.block.values().boolean(*reference)?.into();
+        }
+        Ok(())
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2GetBoolean, body) }
@@ -94,10 +112,10 @@ pub unsafe extern "C" fn fmi2GetString(
         // SAFETY: passed on from the caller.
         let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
         for (reference, slot) in vr.iter().zip(value) {
-            let place = Values::string_place(*reference)?;
-            let kept = &mut instance.strings[place];
+            let reference: StringRef = reference.reference()?;
+            let kept = &mut instance.strings[reference];
             // An unchanged text keeps its address, also where one call names it twice.
-            let present = &instance.block.values().strings[place];
+            let present = &instance.block.values().strings[reference];
             if kept.as_bytes() != present.as_bytes() {
                 *kept = printable(present);
             }

@@ -53,7 +53,7 @@ fn co_simulation() -> Vec<f64> {
     assert_eq!(instance.set_real("collective", COLLECTIVE), c::OK);
     assert_eq!(instance.step(DURATION / 2.0, DURATION / 2.0), c::OK);
     let reals = instance.reals();
-    let states = STATES.iter().map(|row| reals[row.place]);
+    let states = STATES.iter().map(|row| reals[row.value.number() as usize]);
     states
         .chain([instance.real("thrust"), instance.real("hubMoment[1]")])
         .collect()
@@ -191,7 +191,10 @@ fn every_inflow_model_is_the_same_rotor_in_both_interfaces() {
             assert_eq!(co_simulation.step(f64::from(i) * size, size), c::OK);
         }
         let reals = co_simulation.reals();
-        let expected: Vec<f64> = STATES.iter().map(|row| reals[row.place]).collect();
+        let expected: Vec<f64> = STATES
+            .iter()
+            .map(|row| reals[row.value.number() as usize])
+            .collect();
         let error = distance(&model_exchange.states(), &expected);
         println!("{inflow}: {error:.1e}");
         assert!(error < 2e-4, "{inflow}: {error}");

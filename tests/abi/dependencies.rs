@@ -130,7 +130,7 @@ fn outputs_and_derivatives_depend_on_what_is_said_and_on_nothing_else() {
             .iter()
             .filter(|v| v.causality == Causality::Input)
             .map(|v| v.name);
-        let states = STATES.iter().map(|row| REALS[row.place].name);
+        let states = STATES.iter().map(|row| row.value.variable().name);
         for known in inputs.chain(states) {
             let value = before[reference(&REALS, known) as usize];
             assert_eq!(instance.set_real(known, value + 0.01), c::OK);

@@ -58,11 +58,17 @@ fn the_states_begin_as_those_of_co_simulation_and_their_variables_hold_them() {
     assert_eq!(early, (states.clone(), derivatives.clone()));
     let reals = instance.reals();
     for (i, row) in STATES.iter().enumerate() {
-        assert_eq!(states[i], reals[row.place], "{}", REALS[row.place].name);
         assert_eq!(
-            derivatives[i], reals[row.derivative],
+            states[i],
+            reals[row.value.number() as usize],
             "{}",
-            REALS[row.place].name
+            row.value.variable().name
+        );
+        assert_eq!(
+            derivatives[i],
+            reals[row.derivative.number() as usize],
+            "{}",
+            row.value.variable().name
         );
     }
     let nominals = STATES.map(|row| row.nominal);
@@ -75,7 +81,7 @@ fn the_states_begin_as_those_of_co_simulation_and_their_variables_hold_them() {
             derivatives[i] != 0.0,
             used,
             "{}",
-            REALS[STATES[i].place].name
+            STATES[i].value.variable().name
         );
         assert!(used || states[i] == 0.0);
     }
@@ -124,7 +130,7 @@ fn answers_do_not_depend_on_what_was_asked_before() {
         assert_eq!(instance.derivatives(), expected.1);
         // States one by one, as the standard allows as well.
         for (row, value) in STATES.iter().zip(&other) {
-            assert_eq!(instance.set_reals(&[row.place as u32], &[*value]), c::OK);
+            assert_eq!(instance.set_reals(&[row.value.number()], &[*value]), c::OK);
         }
         assert_eq!(instance.states(), other);
         assert_eq!(
@@ -225,7 +231,7 @@ fn states_are_set_in_continuous_time_mode_only() {
     let instance = Instance::for_model_exchange();
     let refused = |instance: &Instance| {
         for row in &STATES {
-            let message = instance.refused(instance.set_reals(&[row.place as u32], &[0.1]));
+            let message = instance.refused(instance.set_reals(&[row.value.number()], &[0.1]));
             assert!(message.contains("Continuous-Time Mode"), "{message}");
         }
     };
@@ -253,7 +259,10 @@ fn wrong_states_are_refused_and_leave_the_old_ones() {
             let mut wrong = x.clone();
             wrong[i] = bad;
             let message = instance.refused(instance.set_states(&wrong));
-            assert!(message.contains(REALS[STATES[i].place].name), "{message}");
+            assert!(
+                message.contains(STATES[i].value.variable().name),
+                "{message}"
+            );
         }
     }
     for count in [0, 1, 41, 43] {

@@ -3,7 +3,10 @@
 // Each test program uses a part of this.
 #![allow(dead_code)]
 
-use helicopter_rotor::block::{RotorBlock, variables::INTEGERS};
+use helicopter_rotor::block::{
+    RotorBlock,
+    variables::{IntegerRef, RealRef},
+};
 use std::path::PathBuf;
 
 /// The folder of the project.
@@ -17,21 +20,21 @@ pub fn default_block() -> RotorBlock {
 }
 
 /// The integer behind a name of the enumeration at a place among the integers.
-pub fn choice(place: usize, name: &str) -> i32 {
-    let choices = INTEGERS[place].choices;
+pub fn choice(place: IntegerRef, name: &str) -> i32 {
+    let choices = place.variable().choices;
     let found = choices.iter().position(|c| *c == name);
     found.unwrap_or_else(|| panic!("no choice {name} among {choices:?}")) as i32 + 1
 }
 
-pub fn choose(block: &mut RotorBlock, place: usize, name: &str) {
+pub fn choose(block: &mut RotorBlock, place: IntegerRef, name: &str) {
     let value = choice(place, name);
-    block.set_integers(&[place as u32], &[value]).unwrap();
+    block.set_integers(&[place], &[value]).unwrap();
 }
 
-pub fn set(block: &mut RotorBlock, place: usize, value: f64) {
-    block.set_reals(&[place as u32], &[value]).unwrap();
+pub fn set(block: &mut RotorBlock, place: RealRef, value: f64) {
+    block.set_reals(&[place], &[value]).unwrap();
 }
 
-pub fn get(block: &RotorBlock, place: usize) -> f64 {
+pub fn get(block: &RotorBlock, place: RealRef) -> f64 {
     block.values().reals[place]
 }

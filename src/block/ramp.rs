@@ -1,4 +1,4 @@
-//! The course of the inputs within a step: linear, where their derivatives were set.
+//! The ramp of the inputs within a step: linear, where their derivatives were set.
 
 use super::{
     BlockError, Values,
@@ -14,7 +14,7 @@ pub type Slopes = [f64; INPUTS];
 
 /// The inputs' derivatives in time, and a place for their values within a step.
 #[derive(Debug)]
-pub struct Course {
+pub struct Ramp {
     /// For the next step.
     pub slopes: Slopes,
     /// Those of the last step.
@@ -23,7 +23,7 @@ pub struct Course {
     moment: Values,
 }
 
-impl Default for Course {
+impl Default for Ramp {
     fn default() -> Self {
         Self {
             slopes: [0.0; INPUTS],
@@ -33,7 +33,7 @@ impl Default for Course {
     }
 }
 
-impl Course {
+impl Ramp {
     pub fn is_moving(&self) -> bool {
         self.slopes.iter().any(|slope| *slope != 0.0)
     }

@@ -1,6 +1,6 @@
 //! The rotor's states as the list of continuous states that the table of variables declares.
 
-use super::variables::{REALS, STATES};
+use super::{references::Reals, variables::STATES};
 use rotor::{
     State,
     flapping::Flap,
@@ -51,26 +51,27 @@ pub fn from_vector<S: Scalar>(vector: &StateVector<S>) -> State<S> {
 }
 
 /// Writes states among the Real variables.
-pub fn write_states<S: Scalar>(reals: &mut [S; REALS.len()], state: &State<S>) {
+pub fn write_states<S: Scalar>(reals: &mut Reals<S>, state: &State<S>) {
     for (row, value) in STATES.iter().zip(to_vector(state)) {
-        reals[row.place] = value;
+        reals[row.value] = value;
     }
 }
 
 /// Writes derivatives among the Real variables.
-pub fn write_derivatives<S: Scalar>(reals: &mut [S; REALS.len()], rates: &State<S>) {
+pub fn write_derivatives<S: Scalar>(reals: &mut Reals<S>, rates: &State<S>) {
     for (row, value) in STATES.iter().zip(to_vector(rates)) {
         reals[row.derivative] = value;
     }
 }
 
 /// The states among the Real variables.
-pub fn read_states<S: Scalar>(reals: &[S; REALS.len()]) -> State<S> {
-    from_vector(&core::array::from_fn(|i| reals[STATES[i].place]))
+pub fn read_states<S: Scalar>(reals: &Reals<S>) -> State<S> {
+    from_vector(&core::array::from_fn(|i| reals[STATES[i].value]))
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::variables::REALS;
     use super::*;
 
     #[test]
@@ -80,9 +81,9 @@ mod tests {
         names.extend((1..=MOST_FLAPPING_BLADES).map(|i| format!("state.flapAngle[{i}]")));
         names.extend((1..=MOST_FLAPPING_BLADES).map(|i| format!("state.flapRate[{i}]")));
         for (row, name) in STATES.iter().zip(&names) {
-            assert_eq!(REALS[row.place].name, name);
-            assert_eq!(REALS[row.derivative].name, format!("der({name})"));
-            assert!(row.nominal > 0.0 && REALS[row.place].is_state);
+            assert_eq!(row.value.variable().name, name);
+            assert_eq!(row.derivative.variable().name, format!("der({name})"));
+            assert!(row.nominal > 0.0 && row.value.variable().is_state);
         }
         assert_eq!(REALS.iter().filter(|v| v.is_state).count(), STATES.len());
         assert_eq!(STATES.len(), names.len());
