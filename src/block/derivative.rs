@@ -2,7 +2,8 @@
 
 use super::{
     BlockError, RotorBlock, Stage,
-    flight::Flight,
+    flight_condition::FlightCondition,
+    inputs,
     outputs::{write_outputs, write_stations},
     references::{Names, Reals},
     setup,
@@ -11,7 +12,7 @@ use super::{
     variables::{Causality, RealRef, STATES, real},
 };
 use num_dual::Dual64;
-use rotor::{Response, Rotor, State};
+use rotor::{OperatingPoint, Response, Rotor, State};
 use thiserror::Error;
 
 /// Why a derivative was not computed.
@@ -99,51 +100,45 @@ impl RotorBlock {
         changes(reals, outputs, ["time"].into_iter())
     }
 
-    /// Replaces what is computed among the variables by what the others make of it.
+    /// Replaces the computed variables in `reals` by what the inputs, states and parameters in it make of them.
     fn respond_along(&mut self, reals: &mut Reals<Dual64>) -> Result<(), DerivativeError> {
         if self.stage == Stage::Configuring {
             self.update()?;
         }
-        let flight = Flight::with_reals(&self.values, reals).map_err(BlockError::from)?;
-        // A rotor made anew lets go of the twin of the last one.
-        self.rotor()?;
-        let mut twin = match self.twin.take() {
-            Some(twin) => twin,
-            None => self.rotor()?.with_numbers(),
+        let condition =
+            FlightCondition::with_reals(&self.values, reals).map_err(BlockError::from)?;
+        let rotor = self.rotor()?;
+        let state = self.state_along(&rotor, &condition.point, reals)?;
+        let response = rotor.respond(&condition.point, &state, &mut self.dual_workspace);
+        let Response { hub, rates, blade } = match response {
+            Ok(response) => response,
+            Err(error) => return Err(BlockError::Unsolved(error, inputs(&self.values)).into()),
         };
-        let response = self.respond_of(&mut twin, &flight, reals);
-        let written = response.map(|(state, Response { performance, rates })| {
-            let turning = flight.operation.at_speed_of(&state);
-            write_outputs(reals, &twin, &performance, &flight.shaft, &turning);
-            write_stations(reals, &twin);
-            write_states(reals, &state);
-            write_derivatives(reals, &rates);
-        });
-        self.twin = Some(twin);
-        Ok(written?)
+        write_outputs(reals, &rotor, &hub, &condition, &state);
+        write_stations(reals, &rotor, &blade);
+        write_states(reals, &state);
+        write_derivatives(reals, &rates);
+        Ok(())
     }
 
-    /// The states, and what the rotor does in them.
-    fn respond_of(
+    /// The states at an operating point: those among `reals` or, while the block is configured, those of the start.
+    fn state_along(
         &mut self,
-        twin: &mut Rotor<Dual64>,
-        flight: &Flight<Dual64>,
+        rotor: &Rotor,
+        point: &OperatingPoint<Dual64>,
         reals: &Reals<Dual64>,
-    ) -> Result<(State<Dual64>, Response<Dual64>), BlockError> {
-        let state = if self.stage == Stage::Configuring {
-            let plain = Flight::new(&self.values)?.operation;
-            let start = setup::start(&self.values)?;
-            let azimuth_step = self.values.reals[real::NUMERICS__AZIMUTH_STEP];
-            let found = self.memory.state;
-            let operation = (&plain, &flight.operation);
-            let rotor = self.rotor()?;
-            let state = rotor.start_along(twin, operation, &found, start, azimuth_step);
-            state.map_err(|e| self.unsolved(e))?
-        } else {
-            read_states(reals)
-        };
-        let response = twin.respond(&flight.operation, &state);
-        Ok((state, response.map_err(|e| self.unsolved(e))?))
+    ) -> Result<State<Dual64>, BlockError> {
+        if self.stage != Stage::Configuring {
+            return Ok(read_states(reals));
+        }
+        let plain = FlightCondition::new(&self.values)?.point;
+        let start = setup::start(&self.values)?;
+        let azimuth_step = self.values.reals[real::NUMERICS__AZIMUTH_STEP];
+        let found = &self.memory.state;
+        let workspace = &mut self.dual_workspace;
+        rotor
+            .start_along((&plain, point), found, start, azimuth_step, workspace)
+            .map_err(|e| self.unsolved(e))
     }
 }
 

@@ -2,12 +2,12 @@
 //! Neutral of the FMI version.
 
 mod bytes;
-mod coverage;
 mod derivative;
-mod flight;
+mod flight_condition;
 mod integrate;
 mod location;
 mod outputs;
+mod outside_data;
 mod ramp;
 mod references;
 mod setup;
@@ -25,15 +25,15 @@ pub use setup::SetupError;
 pub use snapshot::Snapshot;
 pub use values::{Stage, ValueError, Values};
 
-use coverage::Coverage;
-use flight::Flight;
-use integrate::{Inputs, Memory};
+use flight_condition::FlightCondition;
+use integrate::{Inputs, Integration, Memory};
 use num_dual::Dual64;
 use outputs::{write_outputs, write_stations};
+use outside_data::OutsideDataNotice;
 use ramp::Ramp;
-use rotor::{Operation, Response, Rotor, SolveError};
+use rotor::{OperatingPoint, Response, Rotor, SolveError, Workspace};
 use state_vector::{StateVector, read_states, write_derivatives, write_states};
-use std::path::PathBuf;
+use std::{path::PathBuf, sync::Arc};
 use thiserror::Error;
 use variables::{
     BooleanRef, Causality, DriveMode, FlowState, IntegerRef, REALS, RealRef, STATES, StringRef,
@@ -79,9 +79,10 @@ pub struct RotorBlock {
     stage: Stage,
     resources: PathBuf,
     /// None until it is needed, and again when a parameter that shapes it has changed.
-    rotor: Option<Rotor>,
-    /// The same rotor for derivatives; none until they are asked for.
-    twin: Option<Rotor<Dual64>>,
+    rotor: Option<Arc<Rotor>>,
+    workspace: Workspace,
+    /// For derivatives; empty until they are asked for.
+    dual_workspace: Workspace<Dual64>,
     /// The states of the rotor, which stand among the values as well, and where they come from.
     memory: Memory,
     /// How the inputs move in the next step.
@@ -91,7 +92,7 @@ pub struct RotorBlock {
     flow_state: i32,
     /// What is worth a line in the log since the last call of `take_notes`.
     notes: Vec<String>,
-    coverage: Coverage,
+    outside_data: OutsideDataNotice,
 }
 
 impl RotorBlock {
@@ -104,12 +105,13 @@ impl RotorBlock {
             stage: Stage::Configuring,
             resources,
             rotor: None,
-            twin: None,
+            workspace: Workspace::default(),
+            dual_workspace: Workspace::default(),
             memory: Memory::default(),
             ramp: Ramp::default(),
             fresh: Fresh::Nothing,
             notes: Vec::new(),
-            coverage: Coverage::default(),
+            outside_data: OutsideDataNotice::default(),
         }
     }
 
@@ -199,9 +201,8 @@ impl RotorBlock {
         Ok(())
     }
 
-    /// Lets go of the rotor, of which a panic may have left a part undone; the next call makes it anew.
-    pub fn forget_rotor(&mut self) {
-        self.rotor = None;
+    /// Marks all results as out of date, after a panic that may have left them half-written.
+    pub fn forget_results(&mut self) {
         self.fresh = Fresh::Nothing;
     }
 
@@ -217,7 +218,7 @@ impl RotorBlock {
         if self.fresh == Fresh::All {
             return Ok(());
         }
-        let flight = Flight::new(&self.values)?;
+        let condition = FlightCondition::new(&self.values)?;
         let memory = match self.stage {
             Stage::Running | Stage::Integrating => self.memory,
             Stage::Configuring => {
@@ -225,11 +226,12 @@ impl RotorBlock {
                 let start = setup::start(values)?;
                 let azimuth_step = values.reals[real::NUMERICS__AZIMUTH_STEP];
                 let rotor = self.rotor()?;
-                let state = rotor.start(&flight.operation, start, azimuth_step);
+                let workspace = &mut self.workspace;
+                let state = rotor.start(&condition.point, start, azimuth_step, workspace);
                 Memory::starting(state.map_err(|e| self.unsolved(e))?)
             }
         };
-        self.publish(&flight, memory)
+        self.publish(&condition, memory)
     }
 
     /// Moves on by `duration` s (> 0). During it the inputs are constant, or move by the derivatives that were
@@ -238,15 +240,21 @@ impl RotorBlock {
         if self.ramp.is_moving() {
             return self.step_with_moving_inputs(duration);
         }
-        let flight = Flight::new(&self.values)?;
+        let condition = FlightCondition::new(&self.values)?;
         let azimuth_step = self.values.reals[real::NUMERICS__AZIMUTH_STEP];
         let (memory, is_current) = (self.memory, self.fresh == Fresh::All);
         let rotor = self.rotor()?;
-        let inputs = Inputs::<fn(f64) -> Operation>::Constant(flight.operation);
-        let advanced = integrate::advance(rotor, inputs, &memory, duration, azimuth_step);
+        let point = &condition.point;
+        let inputs = Inputs::<fn(f64) -> OperatingPoint>::Constant(*point);
+        let advanced = Integration {
+            rotor: &rotor,
+            workspace: &mut self.workspace,
+            azimuth_step,
+        }
+        .advance(inputs, &memory, duration);
         if is_current
-            && !rotor.has_memory(&flight.operation)
-            && !rotor.shows_blades(&flight.operation, &memory.state)
+            && !rotor.has_memory(point)
+            && !rotor.evaluate(point, &memory.state).shows_blades()
             && let Ok(advanced) = advanced
         {
             // A disc that nothing changes answers the same.
@@ -254,37 +262,34 @@ impl RotorBlock {
             write_states(&mut self.values.reals, &advanced.state);
         } else {
             let memory = advanced.map_err(|e| self.unsolved(e))?;
-            self.publish(&flight, memory)?;
+            self.publish(&condition, memory)?;
         }
         self.ramp.end();
         Ok(())
     }
 
     fn step_with_moving_inputs(&mut self, duration: f64) -> Result<(), BlockError> {
-        let flight = Flight::new(&self.values)?;
+        let condition = FlightCondition::new(&self.values)?;
         let azimuth_step = self.values.reals[real::NUMERICS__AZIMUTH_STEP];
         self.ramp.begin(&self.values, duration)?;
-        let memory = self.memory;
-        self.rotor()?;
+        let rotor = self.rotor()?;
         let (ramp, values) = (&mut self.ramp, &self.values);
-        // The choices among the values, which alone can be wrong, are those of the beginning.
-        let operation_at =
-            |offset| Flight::new(ramp.at(values, offset)).map_or(flight.operation, |f| f.operation);
-        let inputs = Inputs::Moving(operation_at);
-        let advanced = self
-            .rotor
-            .as_mut()
-            .map(|rotor| integrate::advance(rotor, inputs, &memory, duration, azimuth_step));
-        let memory = match advanced {
-            Some(Ok(advanced)) => advanced,
-            Some(Err(error)) => return Err(self.unsolved(error)),
-            None => memory, // `self.rotor` has made one
+        // Only the choices among the values can be wrong, and they are those of the beginning.
+        let point_at = |offset| {
+            FlightCondition::new(ramp.at(values, offset)).map_or(condition.point, |c| c.point)
         };
+        let advanced = Integration {
+            rotor: &rotor,
+            workspace: &mut self.workspace,
+            azimuth_step,
+        }
+        .advance(Inputs::Moving(point_at), &self.memory, duration);
+        let memory = advanced.map_err(|e| self.unsolved(e))?;
         let start = self.values.reals;
         self.values.reals = self.ramp.at(&self.values, duration).reals;
-        let published = Flight::new(&self.values)
+        let published = FlightCondition::new(&self.values)
             .map_err(BlockError::from)
-            .and_then(|flight| self.publish(&flight, memory));
+            .and_then(|condition| self.publish(&condition, memory));
         match published {
             Ok(()) => self.ramp.end(),
             Err(_) => self.values.reals = start,
@@ -313,7 +318,7 @@ impl RotorBlock {
         self.set_reals(&references, states)?;
         // Solvers move each state by itself for their Jacobian; one that does not count leaves what is computed valid.
         let is_driven = self.values.integers[integer::DRIVE__MODE] == DriveMode::Torque as i32;
-        let is_same = |rotor: &Rotor| {
+        let is_same = |rotor: &Arc<Rotor>| {
             rotor.used(is_driven, &before) == rotor.used(is_driven, &self.memory.state)
         };
         if self.rotor.as_ref().is_some_and(is_same) {
@@ -335,13 +340,13 @@ impl RotorBlock {
         if self.stage == Stage::Configuring {
             return self.update();
         }
-        let operation = Flight::new(&self.values)?.operation;
-        let state = self.memory.state;
-        let rates = self.rotor()?.rates(&operation, &state);
+        let point = FlightCondition::new(&self.values)?.point;
+        let rotor = self.rotor()?;
+        let rates = rotor.rates(&point, &self.memory.state, &mut self.workspace);
         let rates = rates.map_err(|e| self.unsolved(e))?;
         let mut reals = self.values.reals;
         write_derivatives(&mut reals, &rates);
-        self.check_finite(&reals)?;
+        check_finite(&self.values, &reals)?;
         self.values.reals = reals;
         self.fresh = Fresh::Derivatives;
         Ok(())
@@ -371,50 +376,45 @@ impl RotorBlock {
     // ------------------------------------------------------------ computation
 
     /// The rotor of the present parameters.
-    fn rotor(&mut self) -> Result<&mut Rotor, BlockError> {
-        let rotor = match self.rotor.take() {
-            Some(rotor) => rotor,
-            None => {
-                let (rotor, notes) = setup::rotor(&self.values, &self.resources)?;
-                return Ok(self.take_over(rotor, notes));
-            }
-        };
-        Ok(self.rotor.insert(rotor))
+    fn rotor(&mut self) -> Result<Arc<Rotor>, BlockError> {
+        if let Some(rotor) = &self.rotor {
+            return Ok(Arc::clone(rotor));
+        }
+        let (rotor, notes) = setup::rotor(&self.values, &self.resources)?;
+        Ok(self.take_over(rotor, notes))
     }
 
-    /// A rotor that was made anew.
-    fn take_over(&mut self, rotor: Rotor, notes: Vec<String>) -> &mut Rotor {
+    /// Takes over a rotor that was just made.
+    fn take_over(&mut self, rotor: Rotor, notes: Vec<String>) -> Arc<Rotor> {
         self.notes.extend(notes);
-        self.coverage = Coverage::default();
-        self.twin = None;
-        self.rotor.insert(rotor)
+        self.outside_data = OutsideDataNotice::default();
+        Arc::clone(self.rotor.insert(Arc::new(rotor)))
     }
 
     fn unsolved(&self, error: SolveError) -> BlockError {
         BlockError::Unsolved(error, inputs(&self.values))
     }
 
-    /// Computes the outputs in a flight and takes them and the states over, if all are finite.
-    fn publish(&mut self, flight: &Flight, memory: Memory) -> Result<(), BlockError> {
+    /// Computes the outputs in a flight condition and takes them and the states over, if all are finite.
+    fn publish(&mut self, condition: &FlightCondition, memory: Memory) -> Result<(), BlockError> {
         let mut reals = self.values.reals;
         let rotor = self.rotor()?;
-        let response = rotor.respond(&flight.operation, &memory.state);
-        let Response { performance, rates } = match response {
+        let response = rotor.respond(&condition.point, &memory.state, &mut self.workspace);
+        let Response { hub, rates, blade } = match response {
             Ok(response) => response,
-            Err(error) => return Err(self.unsolved(error)),
+            Err(error) => return Err(BlockError::Unsolved(error, inputs(&self.values))),
         };
-        let turning = flight.operation.at_speed_of(&memory.state);
-        write_outputs(&mut reals, rotor, &performance, &flight.shaft, &turning);
-        write_stations(&mut reals, rotor);
+        write_outputs(&mut reals, &rotor, &hub, condition, &memory.state);
+        write_stations(&mut reals, &rotor, &blade);
         write_states(&mut reals, &memory.state);
         write_derivatives(&mut reals, &rates);
-        self.check_finite(&reals)?;
+        check_finite(&self.values, &reals)?;
         self.values.reals = reals;
-        let flow_state = match performance.flow_state {
-            rotor::inflow::descent::FlowState::Normal => FlowState::Normal,
-            rotor::inflow::descent::FlowState::VortexRing => FlowState::VortexRing,
-            rotor::inflow::descent::FlowState::TurbulentWake => FlowState::TurbulentWake,
-            rotor::inflow::descent::FlowState::WindmillBrake => FlowState::WindmillBrake,
+        let flow_state = match hub.flow_state {
+            rotor::inflow::FlowState::Normal => FlowState::Normal,
+            rotor::inflow::FlowState::VortexRing => FlowState::VortexRing,
+            rotor::inflow::FlowState::TurbulentWake => FlowState::TurbulentWake,
+            rotor::inflow::FlowState::WindmillBrake => FlowState::WindmillBrake,
         };
         self.flow_state = flow_state as i32;
         if self.stage != Stage::Integrating {
@@ -422,25 +422,23 @@ impl RotorBlock {
         }
         self.memory = memory;
         self.fresh = Fresh::All;
-        let rotor = self.rotor.as_ref();
-        let note = rotor.and_then(|rotor| self.coverage.note(rotor));
-        self.notes.extend(note);
+        self.notes.extend(self.outside_data.next(&rotor, &blade));
         Ok(())
     }
+}
 
-    /// An error if anything that is computed is not finite.
-    fn check_finite(&self, reals: &Reals) -> Result<(), BlockError> {
-        for (variable, value) in REALS.iter().zip(reals) {
-            if variable.causality.is_computed() && !value.is_finite() {
-                return Err(BlockError::NotFinite {
-                    name: variable.name,
-                    value: *value,
-                    inputs: inputs(&self.values),
-                });
-            }
+/// An error if any computed value in `reals` is not finite.
+fn check_finite(values: &Values, reals: &Reals) -> Result<(), BlockError> {
+    for (variable, value) in REALS.iter().zip(reals) {
+        if variable.causality.is_computed() && !value.is_finite() {
+            return Err(BlockError::NotFinite {
+                name: variable.name,
+                value: *value,
+                inputs: inputs(values),
+            });
         }
-        Ok(())
     }
+    Ok(())
 }
 
 /// The inputs as a text for errors.

@@ -1,8 +1,8 @@
 //! What the rotor answers, as values of the outputs.
 
-use super::{flight::Shaft, references::Reals, variables::real};
+use super::{flight_condition::FlightCondition, references::Reals, variables::real};
 use core::f64::consts::{PI, SQRT_2};
-use rotor::{Drive, Operation, Performance, Rotor, scalar::Scalar};
+use rotor::{BladeLoads, Drive, HubLoads, Rotor, State, scalar::Scalar};
 
 /// Number of stations along the blade.
 const STATIONS: usize = real::STATION__RADIUS.len();
@@ -13,17 +13,19 @@ const STANDSTILL: f64 = 1e-6;
 /// Writes the outputs among the Real variables.
 pub fn write_outputs<S: Scalar>(
     reals: &mut Reals<S>,
-    rotor: &Rotor<S>,
-    performance: &Performance<S>,
-    shaft: &Shaft<S>,
-    operation: &Operation<S>,
+    rotor: &Rotor,
+    hub: &HubLoads<S>,
+    condition: &FlightCondition<S>,
+    state: &State<S>,
 ) {
-    let Performance {
+    let shaft = &condition.shaft;
+    let point = &condition.point.at_speed_of(state);
+    let HubLoads {
         force: hub_force,
         moment: hub_moment,
         torque,
         ..
-    } = *performance;
+    } = *hub;
     let thrust = hub_force.z;
     let force = shaft.hub_to_ground * hub_force;
     let moment = shaft.hub_to_ground * hub_moment;
@@ -44,10 +46,10 @@ pub fn write_outputs<S: Scalar>(
         }
     }
 
-    let air = &operation.air;
+    let air = &point.air;
     let geometry = rotor.geometry();
     let radius = geometry.radius;
-    let tip_speed = operation.speed.abs() * radius;
+    let tip_speed = point.speed.abs() * radius;
     let reference_force = air.density * PI * radius * radius * tip_speed * tip_speed;
     let per = |quantity: S, reference: S| {
         if tip_speed.value() > STANDSTILL {
@@ -60,43 +62,43 @@ pub fn write_outputs<S: Scalar>(
     let torque_coefficient = per(torque, reference_force * radius);
     reals[real::THRUST] = thrust;
     reals[real::TORQUE] = torque;
-    reals[real::POWER] = torque * operation.speed;
+    reals[real::POWER] = torque * point.speed;
     reals[real::THRUST_COEFFICIENT] = thrust_coefficient;
     reals[real::TORQUE_COEFFICIENT] = torque_coefficient;
     // CP = CQ in these units, but for a rotor that turns backwards.
-    reals[real::POWER_COEFFICIENT] = torque_coefficient * operation.speed.value().signum();
+    reals[real::POWER_COEFFICIENT] = torque_coefficient * point.speed.value().signum();
     reals[real::FIGURE_OF_MERIT] =
         if thrust_coefficient.value() > 0.0 && torque_coefficient.value() > 0.0 {
             thrust_coefficient * thrust_coefficient.sqrt() / (torque_coefficient * SQRT_2)
         } else {
             S::zero()
         };
-    reals[real::INDUCED_VELOCITY] = performance.induced_velocity;
-    let airspeed = &operation.airspeed;
-    reals[real::INFLOW_RATIO] = per(airspeed.z + performance.induced_velocity, tip_speed);
+    reals[real::INDUCED_VELOCITY] = hub.induced_velocity;
+    let airspeed = &point.airspeed;
+    reals[real::INFLOW_RATIO] = per(airspeed.z + hub.induced_velocity, tip_speed);
     reals[real::ADVANCE_RATIO] = per(airspeed.x.hypot(airspeed.y), tip_speed);
-    reals[real::ROTOR_SPEED] = match operation.drive {
+    reals[real::ROTOR_SPEED] = match point.drive {
         Drive::Speed => reals[real::RPM],
-        Drive::Torque { .. } => operation.speed * 30.0 / PI,
+        Drive::Torque { .. } => point.speed * 30.0 / PI,
     };
-    reals[real::CONING] = performance.tip_path.coning;
-    reals[real::LONGITUDINAL_FLAPPING] = performance.tip_path.longitudinal;
-    reals[real::LATERAL_FLAPPING] = performance.tip_path.lateral;
-    reals[real::STALLED_RADIUS] = S::constant(performance.stalled_radius);
-    reals[real::STALLED_FRACTION] = S::constant(performance.stalled_fraction);
+    reals[real::CONING] = hub.tip_path.coning;
+    reals[real::LONGITUDINAL_FLAPPING] = hub.tip_path.longitudinal;
+    reals[real::LATERAL_FLAPPING] = hub.tip_path.lateral;
+    reals[real::STALLED_RADIUS] = S::constant(hub.stalled_radius);
+    reals[real::STALLED_FRACTION] = S::constant(hub.stalled_fraction);
     reals[real::TIP_MACH] = tip_speed / air.speed_of_sound;
     reals[real::TIP_REYNOLDS] = air.density * tip_speed * geometry.tip_chord / air.viscosity;
     reals[real::AIR_DENSITY] = air.density;
 }
 
 /// Writes what goes on along the blade, at the middles of equal parts from cutout to tip.
-pub fn write_stations<S: Scalar>(reals: &mut Reals<S>, rotor: &Rotor<S>) {
+pub fn write_stations<S: Scalar>(reals: &mut Reals<S>, rotor: &Rotor, blade: &BladeLoads<S>) {
     let geometry = rotor.geometry();
     let (cutout, blades) = (geometry.cutout(), f64::from(geometry.blades));
     for i in 0..STATIONS {
         let part = (i as f64 + 0.5) / STATIONS as f64;
         let radius = cutout + part * (1.0 - cutout);
-        let load = rotor.load_at(radius);
+        let load = blade.at(radius);
         for (places, value) in [
             (real::STATION__RADIUS, S::constant(radius)),
             (real::STATION__ANGLE_OF_ATTACK, load.angle_of_attack),

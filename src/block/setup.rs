@@ -14,9 +14,9 @@ use rotor::{
     airfoil::{Airfoil, AirfoilError, Lift, SectionModel},
     compressibility::Compressibility,
     flapping::{Freedom, Hinge},
-    geometry::{self, Geometry, GeometryError, RotorFileError},
-    inflow::{Descent, Inflow, Skew, ground::GroundEffect},
-    state::MOST_FLAPPING_BLADES,
+    geometry::{self, Elements, Geometry, GeometryError, RotorFileError},
+    inflow::{Descent, GroundEffect, Inflow, Skew},
+    state::MAX_FLAPPING_BLADES,
     tip_loss::TipLoss,
 };
 use std::path::Path;
@@ -45,7 +45,7 @@ pub enum SetupError {
     #[error("the geometry parameters make no rotor: {0}; change them or set geometry.file")]
     Geometry(GeometryError),
     #[error(
-        "flapping.enabled = true with {blades} blades: at most {MOST_FLAPPING_BLADES} can flap; set fewer blades, or flapping.enabled to false"
+        "flapping.enabled = true with {blades} blades: at most {MAX_FLAPPING_BLADES} can flap; set fewer blades, or flapping.enabled to false"
     )]
     TooManyToFlap { blades: u32 },
     #[error(
@@ -107,16 +107,17 @@ pub fn rotor(values: &Values, resources: &Path) -> Result<(Rotor, Vec<String>), 
         airfoils.push(airfoil);
     }
     // The range check of the table keeps the number of elements positive.
-    let elements = values.integers[integer::NUMERICS__ELEMENTS].max(1) as usize;
-    let models = models(values, &geometry)?;
-    Ok((Rotor::new(geometry, airfoils, models, elements), notes))
+    let count = values.integers[integer::NUMERICS__ELEMENTS].max(1) as usize;
+    let elements = Elements::new(&geometry, count);
+    let models = models(values, &geometry, &elements)?;
+    Ok((Rotor::new(geometry, elements, airfoils, models), notes))
 }
 
 /// How the blades are held, and whether they can be as the other models have it.
 fn hinge(
     values: &Values,
     geometry: &Geometry,
-    inflow: Inflow,
+    inflow: &Inflow,
     blades: Blades,
 ) -> Result<Hinge, SetupError> {
     let reals = &values.reals;
@@ -127,14 +128,14 @@ fn hinge(
         length: geometry.radius - offset,
     });
     if freedom.is_some() {
-        if geometry.blades as usize > MOST_FLAPPING_BLADES {
+        if geometry.blades as usize > MAX_FLAPPING_BLADES {
             let blades = geometry.blades;
             return Err(SetupError::TooManyToFlap { blades });
         }
         if blades == Blades::Disc {
             return Err(SetupError::DiscCannotFlap);
         }
-        if inflow == Inflow::AnnulusClosedForm {
+        if inflow.is_axial_only() {
             return Err(SetupError::ClosedFormCannotFlap);
         }
     }
@@ -177,24 +178,26 @@ fn shape(
     Ok(geometry)
 }
 
-fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
+fn models(values: &Values, geometry: &Geometry, elements: &Elements) -> Result<Models, SetupError> {
     let inflow = match choice(values, integer::MODELS__INFLOW, InflowModel::from_integer)? {
         InflowModel::Annulus => Inflow::Annulus,
         InflowModel::AnnulusClosedForm => Inflow::AnnulusClosedForm,
-        InflowModel::Uniform => Inflow::Disc(Skew::Uniform),
-        InflowModel::Coleman => Inflow::Disc(Skew::Coleman),
-        InflowModel::Drees => Inflow::Disc(Skew::Drees),
-        InflowModel::Payne => Inflow::Disc(Skew::Payne),
-        InflowModel::WhiteBlake => Inflow::Disc(Skew::WhiteBlake),
-        InflowModel::PittPeters => Inflow::Disc(Skew::PittPeters),
-        InflowModel::Howlett => Inflow::Disc(Skew::Howlett),
-        InflowModel::GlauertHighSpeed => Inflow::Disc(Skew::GlauertHighSpeed),
+        InflowModel::Uniform => Inflow::Linear(Skew::Uniform),
+        InflowModel::Coleman => Inflow::Linear(Skew::Coleman),
+        InflowModel::Drees => Inflow::Linear(Skew::Drees),
+        InflowModel::Payne => Inflow::Linear(Skew::Payne),
+        InflowModel::WhiteBlake => Inflow::Linear(Skew::WhiteBlake),
+        InflowModel::PittPeters => Inflow::Linear(Skew::PittPeters),
+        InflowModel::Howlett => Inflow::Linear(Skew::Howlett),
+        InflowModel::GlauertHighSpeed => Inflow::Linear(Skew::GlauertHighSpeed),
         InflowModel::FiniteBlades => Inflow::FiniteBlades,
         InflowModel::PittPetersDynamic => Inflow::PittPetersDynamic,
         // The range check of the table keeps the order positive.
-        InflowModel::PetersHe => Inflow::PetersHe {
-            order: values.integers[integer::NUMERICS__INFLOW_ORDER].max(1) as usize,
-        },
+        InflowModel::PetersHe => Inflow::peters_he(
+            values.integers[integer::NUMERICS__INFLOW_ORDER].max(1) as usize,
+            geometry.blades as usize,
+            &elements.radius_ratios(geometry.radius),
+        ),
     };
     let ground = choice(
         values,
@@ -206,7 +209,7 @@ fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
         GroundEffectModel::CheesemanBennett => GroundEffect::CheesemanBennett,
         GroundEffectModel::Hayden => GroundEffect::Hayden,
     };
-    if inflow == Inflow::AnnulusClosedForm && ground_effect != GroundEffect::None {
+    if inflow.is_axial_only() && ground_effect != GroundEffect::None {
         return Err(SetupError::ClosedFormKnowsNoGround);
     }
     let blades = match choice(values, integer::MODELS__BLADES, BladesModel::from_integer)? {
@@ -215,6 +218,7 @@ fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
         BladesModel::Individual => Blades::Individual,
     };
     Ok(Models {
+        hinge: hinge(values, geometry, &inflow, blades)?,
         inflow,
         descent: match choice(values, integer::MODELS__DESCENT, DescentModel::from_integer)? {
             DescentModel::Momentum => Descent::Momentum,
@@ -223,7 +227,6 @@ fn models(values: &Values, geometry: &Geometry) -> Result<Models, SetupError> {
         },
         ground_effect,
         blades,
-        hinge: hinge(values, geometry, inflow, blades)?,
         tip_loss: match choice(
             values,
             integer::MODELS__TIP_LOSS,

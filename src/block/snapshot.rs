@@ -12,7 +12,7 @@ use super::{
     variables::{Causality, INTEGERS, REALS, STRINGS, integer},
 };
 use nalgebra::Vector3;
-use rotor::{Drive, Operation, State, air::Air};
+use rotor::{Drive, OperatingPoint, State, air::Air};
 
 /// A copy of what a block knows, without its rotor, which follows from the parameters.
 #[derive(Debug, Clone, PartialEq)]
@@ -95,7 +95,7 @@ impl Snapshot {
         reals(&to_vector(&self.memory.state));
         if let Some(since) = &self.memory.since {
             reals(&[1.0]);
-            reals(&operation_to_numbers(&since.operation));
+            reals(&operation_to_numbers(&since.point));
             reals(&to_vector(&since.state));
             reals(&[since.elapsed]);
         } else {
@@ -233,7 +233,7 @@ fn read_since(reader: &mut Reader) -> Result<Since, DecodeError> {
         return Err(DecodeError::Value("the integration".into()));
     }
     Ok(Since {
-        operation,
+        point: operation,
         state,
         elapsed,
     })
@@ -242,8 +242,8 @@ fn read_since(reader: &mut Reader) -> Result<Since, DecodeError> {
 /// How many numbers an operation is.
 const OPERATION: usize = 21;
 
-fn operation_to_numbers(operation: &Operation) -> [f64; OPERATION] {
-    let Operation {
+fn operation_to_numbers(operation: &OperatingPoint) -> [f64; OPERATION] {
+    let OperatingPoint {
         collective,
         cyclic_longitudinal,
         cyclic_lateral,
@@ -286,7 +286,7 @@ fn operation_to_numbers(operation: &Operation) -> [f64; OPERATION] {
 }
 
 /// What `operation_to_numbers` made numbers of. The block only compares it with the present operation.
-fn operation_from_numbers(numbers: &[f64; OPERATION]) -> Result<Operation, DecodeError> {
+fn operation_from_numbers(numbers: &[f64; OPERATION]) -> Result<OperatingPoint, DecodeError> {
     let vector = |first: usize| Vector3::from_column_slice(&numbers[first..first + 3]);
     let drive = match numbers[15] {
         0.0 => Drive::Speed,
@@ -296,7 +296,7 @@ fn operation_from_numbers(numbers: &[f64; OPERATION]) -> Result<Operation, Decod
         },
         _ => return Err(DecodeError::Value("the integration".into())),
     };
-    Ok(Operation {
+    Ok(OperatingPoint {
         collective: numbers[0],
         cyclic_longitudinal: numbers[1],
         cyclic_lateral: numbers[2],

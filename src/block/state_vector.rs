@@ -3,15 +3,15 @@
 use super::{references::Reals, variables::STATES};
 use rotor::{
     State,
-    flapping::Flap,
+    disc::Flap,
     scalar::Scalar,
-    state::{MOST_FLAPPING_BLADES, MOST_INFLOW_STATES},
+    state::{MAX_FLAPPING_BLADES, MAX_INFLOW_STATES},
 };
 
 /// The states, or their derivatives, in the order of `STATES`.
 pub type StateVector<S = f64> = [S; STATES.len()];
 
-const _: () = assert!(STATES.len() == 2 + MOST_INFLOW_STATES + 2 * MOST_FLAPPING_BLADES);
+const _: () = assert!(STATES.len() == 2 + MAX_INFLOW_STATES + 2 * MAX_FLAPPING_BLADES);
 
 /// Azimuth, speed, inflow, flap angles and flap rates.
 pub fn to_vector<S: Scalar>(state: &State<S>) -> StateVector<S> {
@@ -38,9 +38,9 @@ pub fn from_vector<S: Scalar>(vector: &StateVector<S>) -> State<S> {
         speed: vector[1],
         ..State::default()
     };
-    let (inflow, flaps) = vector[2..].split_at(MOST_INFLOW_STATES);
+    let (inflow, flaps) = vector[2..].split_at(MAX_INFLOW_STATES);
     state.inflow.copy_from_slice(inflow);
-    let (angles, rates) = flaps.split_at(MOST_FLAPPING_BLADES);
+    let (angles, rates) = flaps.split_at(MAX_FLAPPING_BLADES);
     for ((flap, angle), rate) in state.flaps.iter_mut().zip(angles).zip(rates) {
         *flap = Flap {
             angle: *angle,
@@ -77,9 +77,9 @@ mod tests {
     #[test]
     fn the_names_of_the_table_are_those_of_the_states_in_this_order() {
         let mut names = vec!["azimuth".to_owned(), "state.rotorSpeed".to_owned()];
-        names.extend((1..=MOST_INFLOW_STATES).map(|i| format!("state.inflow[{i}]")));
-        names.extend((1..=MOST_FLAPPING_BLADES).map(|i| format!("state.flapAngle[{i}]")));
-        names.extend((1..=MOST_FLAPPING_BLADES).map(|i| format!("state.flapRate[{i}]")));
+        names.extend((1..=MAX_INFLOW_STATES).map(|i| format!("state.inflow[{i}]")));
+        names.extend((1..=MAX_FLAPPING_BLADES).map(|i| format!("state.flapAngle[{i}]")));
+        names.extend((1..=MAX_FLAPPING_BLADES).map(|i| format!("state.flapRate[{i}]")));
         for (row, name) in STATES.iter().zip(&names) {
             assert_eq!(row.value.variable().name, name);
             assert_eq!(row.derivative.variable().name, format!("der({name})"));

@@ -97,7 +97,7 @@ pub unsafe fn call(
     }))
     .unwrap_or_else(|panic| {
         // SAFETY: as above.
-        unsafe { (*instance).block.forget_rotor() };
+        unsafe { (*instance).block.forget_results() };
         Err(Message::Error(internal_error(&*panic)))
     });
 

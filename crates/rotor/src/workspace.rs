@@ -4,7 +4,7 @@ use super::{blade_loads::ElementLoads, rotor::Rotor, scalar::Scalar};
 
 /// Scratch memory for computations with one rotor at a time, in plain or dual numbers. It carries nothing from one
 /// computation to the next.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct Workspace<S = f64> {
     /// Fraction of each element that carries lift.
     pub(crate) lifting_shares: Vec<S>,
@@ -12,13 +12,20 @@ pub struct Workspace<S = f64> {
     pub(crate) elements: Vec<ElementLoads<S>>,
 }
 
+impl<S: Scalar> Default for Workspace<S> {
+    /// No memory yet; the first computation allocates it.
+    fn default() -> Self {
+        Self {
+            lifting_shares: Vec::new(),
+            elements: Vec::new(),
+        }
+    }
+}
+
 impl<S: Scalar> Workspace<S> {
     /// Memory for a rotor.
     pub fn new(rotor: &Rotor) -> Self {
-        let mut workspace = Self {
-            lifting_shares: Vec::new(),
-            elements: Vec::new(),
-        };
+        let mut workspace = Self::default();
         workspace.prepare(rotor);
         workspace
     }

@@ -54,6 +54,11 @@ impl Elements {
         self.radius.len()
     }
 
+    /// r/R of the elements' middles; `radius` is R, m.
+    pub fn radius_ratios(&self, radius: f64) -> Vec<f64> {
+        self.radius.iter().map(|r| r / radius).collect()
+    }
+
     pub fn is_empty(&self) -> bool {
         self.radius.is_empty()
     }

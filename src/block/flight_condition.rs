@@ -1,4 +1,4 @@
-//! What the inputs ask of the rotor.
+//! The flight condition: the operating point that the inputs describe, and where the shaft points.
 
 use super::{
     references::Reals,
@@ -9,28 +9,28 @@ use super::{
 use core::f64::consts::PI;
 use nalgebra::{Matrix3, Vector3};
 use rotor::{
-    Drive, Operation,
+    Drive, OperatingPoint,
     air::{Air, STANDARD_GRAVITY},
     scalar::Scalar,
 };
 
-/// What the inputs ask of the rotor, and where its hub is turned to.
-pub struct Flight<S = f64> {
+/// The operating point that the inputs describe, and where the shaft points.
+pub struct FlightCondition<S = f64> {
     pub shaft: Shaft<S>,
-    pub operation: Operation<S>,
+    pub point: OperatingPoint<S>,
 }
 
-impl Flight {
+impl FlightCondition {
     pub fn new(values: &Values) -> Result<Self, SetupError> {
         Self::with_reals(values, &values.reals)
     }
 }
 
-impl<S: Scalar> Flight<S> {
+impl<S: Scalar> FlightCondition<S> {
     /// With other numbers in place of the Real variables.
     pub fn with_reals(values: &Values, reals: &Reals<S>) -> Result<Self, SetupError> {
         let shaft = Shaft::new(reals);
-        let operation = Operation {
+        let point = OperatingPoint {
             collective: reals[real::COLLECTIVE],
             cyclic_longitudinal: reals[real::CYCLIC_LONGITUDINAL],
             cyclic_lateral: reals[real::CYCLIC_LATERAL],
@@ -49,7 +49,7 @@ impl<S: Scalar> Flight<S> {
             },
             air: air(values, reals)?,
         };
-        Ok(Self { shaft, operation })
+        Ok(Self { shaft, point })
     }
 }
 

@@ -1,18 +1,18 @@
-//! A sentence for the log where the flow goes beyond the data of an airfoil file.
+//! A sentence for the log when the flow at the blades lies outside the data of an airfoil file.
 
-use rotor::{Rotor, airfoil::Axis};
+use rotor::{BladeLoads, Rotor, airfoil::Axis};
 
-/// What was said already.
+/// Which of the two sentences have been logged.
 #[derive(Debug, Default)]
-pub struct Coverage {
+pub struct OutsideDataNotice {
     reynolds: bool,
     mach: bool,
 }
 
-impl Coverage {
-    /// The sentence for the last computation of a rotor, if there is one that was not said before: at
-    /// most one on Reynolds and one on Mach numbers. Allocates only for a sentence.
-    pub fn note(&mut self, rotor: &Rotor) -> Option<String> {
+impl OutsideDataNotice {
+    /// The sentence for these loads, if it has not been logged before: at most one on Reynolds and one on Mach numbers.
+    /// Allocates only for a sentence.
+    pub fn next(&mut self, rotor: &Rotor, blade: &BladeLoads) -> Option<String> {
         for (axis, is_said) in [
             (Axis::Reynolds, &mut self.reynolds),
             (Axis::Mach, &mut self.mach),
@@ -20,7 +20,7 @@ impl Coverage {
             if *is_said {
                 continue;
             }
-            if let Some(beyond) = rotor.beyond_data(axis) {
+            if let Some(found) = rotor.outside_data(blade.elements(), axis) {
                 *is_said = true;
                 let (name, digits, drag) = match axis {
                     Axis::Reynolds => ("Reynolds", 0, " (drag: see airfoil.dragReynoldsExponent)"),
@@ -36,9 +36,9 @@ impl Coverage {
                 };
                 return Some(format!(
                     "{name} numbers {} at the blades, but {} in the airfoil file of {:?}: the nearest are used beyond them{drag}; this is said once",
-                    shown(beyond.met),
-                    shown(beyond.file),
-                    beyond.airfoil.name()
+                    shown(found.met),
+                    shown(found.file),
+                    found.airfoil.name()
                 ));
             }
         }
