@@ -1,7 +1,8 @@
 //! The choice of models.
 
 use super::{
-    airfoil::SectionModel,
+    airfoil::{Lift, SectionModel},
+    compressibility::Compressibility,
     flapping::Hinge,
     inflow::{Descent, GroundEffect, Inflow},
     tip_loss::TipLoss,
@@ -24,6 +25,26 @@ pub struct Models {
     pub tip_loss: TipLoss,
     /// How section coefficients are made from airfoil data.
     pub section: SectionModel,
+}
+
+impl Default for Models {
+    /// The models of the FMU that sets nothing: annuli, the measured law of descent, rigid blades, Prandtl's tip loss, airfoil
+    /// tables with Prandtl and Glauert's rule.
+    fn default() -> Self {
+        Self {
+            inflow: Inflow::Annulus,
+            descent: Descent::Measured,
+            ground_effect: GroundEffect::None,
+            blades: Blades::Automatic,
+            hinge: Hinge::default(),
+            tip_loss: TipLoss::Prandtl,
+            section: SectionModel {
+                lift: Lift::Table,
+                compressibility: Compressibility::PrandtlGlauert,
+                drag_reynolds_exponent: 0.2,
+            },
+        }
+    }
 }
 
 /// Whether loads are those of the blades at their azimuths or averages over one revolution.

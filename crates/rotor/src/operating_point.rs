@@ -1,6 +1,10 @@
 //! What the rotor is asked to do, and the air it does it in.
 
-use super::{air::Air, scalar::Scalar, state::State};
+use super::{
+    air::{Air, STANDARD_GRAVITY},
+    scalar::Scalar,
+    state::State,
+};
 use nalgebra::Vector3;
 
 /// An operating point: controls, motion of the hub and air. SI units, rad; vectors in the hub frame (x forward, y left, z
@@ -45,6 +49,29 @@ pub enum Drive<S = f64> {
         /// Moment of inertia about the shaft of everything that turns, kg.m2, > 0.
         inertia: f64,
     },
+}
+
+/// Height of the hub above the ground at which no ground effect is felt, m.
+const FAR_FROM_GROUND: f64 = 1000.0;
+
+impl OperatingPoint {
+    /// Hover in still air far from the ground, at a collective, rad, and an imposed rotor speed, rad/s. Other flight
+    /// conditions change its fields: `OperatingPoint { airspeed, ..OperatingPoint::hover(...) }`.
+    pub fn hover(collective: f64, speed: f64, air: Air) -> Self {
+        Self {
+            collective,
+            cyclic_longitudinal: 0.0,
+            cyclic_lateral: 0.0,
+            speed,
+            airspeed: Vector3::zeros(),
+            angular_velocity: Vector3::zeros(),
+            gravity: Vector3::new(0.0, 0.0, -STANDARD_GRAVITY),
+            hinge_spring: 0.0,
+            height: FAR_FROM_GROUND,
+            drive: Drive::Speed,
+            air,
+        }
+    }
 }
 
 impl<S: Scalar> OperatingPoint<S> {

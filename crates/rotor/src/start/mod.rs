@@ -59,15 +59,12 @@ impl Rotor {
         Ok(state)
     }
 
-    /// Hub loads in steady flight. In the disc, and for rigid blades in inflow without states, that is all there is to know;
-    /// else they are those at the azimuth of the start. Fails as `start` and `respond` do.
-    pub fn steady(
-        &self,
-        point: &OperatingPoint,
-        workspace: &mut Workspace,
-    ) -> Result<HubLoads, SolveError> {
-        let state = self.start(point, Start::Steady, PI / 60.0, workspace)?;
-        Ok(self.respond(point, &state, workspace)?.hub)
+    /// Hub loads in steady flight. Where blades show at their azimuths, they are those at the azimuth of the start. Allocates
+    /// a workspace; fails as `start` and `respond` do.
+    pub fn steady(&self, point: &OperatingPoint) -> Result<HubLoads, SolveError> {
+        let mut workspace = Workspace::new(self);
+        let state = self.start(point, Start::Steady, PI / 60.0, &mut workspace)?;
+        Ok(self.respond(point, &state, &mut workspace)?.hub)
     }
 
     /// The state at the start with its derivatives along those of `dual`: `found` is what `start` has found at `plain`, which
