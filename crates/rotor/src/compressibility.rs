@@ -10,7 +10,7 @@ use super::scalar::Scalar;
 
 /// Above this Mach number the rules are held: Prandtl & Glauert's is singular at 1, and none is
 /// meant for transonic flow.
-const LARGEST_MACH: f64 = 0.9;
+const MAX_MACH: f64 = 0.9;
 
 /// Ratio of specific heats of air.
 const HEAT_RATIO: f64 = 1.4;
@@ -38,7 +38,7 @@ impl Compressibility {
     /// By what the incompressible lift coefficient is divided.
     pub fn divisor<S: Scalar>(self, lift: S, mach: S) -> S {
         let mach_squared = {
-            let held = mach.at_most(LARGEST_MACH);
+            let held = mach.at_most(MAX_MACH);
             held * held
         };
         let beta = (S::one() - mach_squared).sqrt();

@@ -189,7 +189,7 @@ impl<S: Scalar> DiscFlow<S> {
         } = *self;
         [edgewise, roll_rate, pitch_rate, cyclic_cos, cyclic_sin]
             .iter()
-            .all(|x| x.is_nothing(0.0))
+            .all(|x| x.is_negligible(0.0))
     }
 
     /// Angular velocity of the hub about a blade's e_r and e_t, rad/s.

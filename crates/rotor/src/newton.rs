@@ -4,11 +4,11 @@ use nalgebra::{DMatrix, DVector};
 use num_dual::Dual64;
 
 /// Most matrices of slopes.
-const MATRICES: usize = 30;
+const MAX_MATRICES: usize = 30;
 /// Most steps with a matrix before it is made anew.
-const STEPS: usize = 8;
+const MAX_STEPS: usize = 8;
 /// Most halvings of a step that does not come closer.
-const HALVINGS: u32 = 10;
+const MAX_HALVINGS: u32 = 10;
 /// Difference for the slopes.
 const SMALL: f64 = 1e-7;
 
@@ -35,7 +35,7 @@ pub fn solve<E>(
     let count = start.len();
     let mut at = start;
     let mut value = residual(&at, Use::Value)?;
-    for _ in 0..MATRICES {
+    for _ in 0..MAX_MATRICES {
         if !value.norm().is_finite() {
             return Ok(None);
         }
@@ -49,7 +49,7 @@ pub fn solve<E>(
             other[i] += SMALL;
             slopes.set_column(i, &((residual(&other, Use::Slopes)? - &base) / SMALL));
         }
-        for _ in 0..STEPS {
+        for _ in 0..MAX_STEPS {
             let Some(step) = slopes.clone().lu().solve(&-&value) else {
                 return Ok(None);
             };
@@ -59,18 +59,18 @@ pub fn solve<E>(
             let before = value.norm();
             let mut part = 1.0;
             let mut next = (&at + &step, DVector::zeros(0));
-            for halving in 0..=HALVINGS {
+            for halving in 0..=MAX_HALVINGS {
                 next.0 = &at + &step * part;
                 // Too far a step may lead to where nothing can be computed.
                 match residual(&next.0, Use::Value) {
                     Ok(value) => next.1 = value,
-                    Err(error) if halving == HALVINGS => return Err(error),
+                    Err(error) if halving == MAX_HALVINGS => return Err(error),
                     Err(_) => {
                         part *= 0.5;
                         continue;
                     }
                 }
-                if next.1.norm() < before || halving == HALVINGS {
+                if next.1.norm() < before || halving == MAX_HALVINGS {
                     break;
                 }
                 part *= 0.5;

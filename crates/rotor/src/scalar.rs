@@ -74,8 +74,8 @@ pub trait Scalar:
     fn is_below(self, limit: f64) -> bool;
     /// Whether it lies above `limit`, or at it and about to rise above.
     fn is_above(self, limit: f64) -> bool;
-    /// Whether the magnitude is at most `most` and does not change.
-    fn is_nothing(self, most: f64) -> bool;
+    /// Whether the magnitude is at most `limit` and does not change.
+    fn is_negligible(self, limit: f64) -> bool;
     fn sin(self) -> Self;
     fn cos(self) -> Self;
     fn acos(self) -> Self;
@@ -129,8 +129,8 @@ impl Scalar for f64 {
     fn is_above(self, limit: f64) -> bool {
         self > limit
     }
-    fn is_nothing(self, most: f64) -> bool {
-        f64::abs(self) <= most
+    fn is_negligible(self, limit: f64) -> bool {
+        f64::abs(self) <= limit
     }
     fn sin(self) -> Self {
         libm::sin(self)
@@ -178,7 +178,7 @@ fn chain(x: Dual64, value: f64, slope: f64) -> Dual64 {
 
 /// Most steps of the secant method to the change of a root at a corner, and the part of the equation that is left to
 /// rounding. Without a corner the first step is the theorem, and ends the search.
-const SECANTS: u32 = 30;
+const MAX_SECANTS: u32 = 30;
 const ROUNDING: f64 = 1e-10;
 
 impl Scalar for Dual64 {
@@ -194,8 +194,8 @@ impl Scalar for Dual64 {
     fn is_above(self, limit: f64) -> bool {
         self.re > limit || (self.re == limit && self.eps > 0.0)
     }
-    fn is_nothing(self, most: f64) -> bool {
-        self.re.is_nothing(most) && self.eps == 0.0
+    fn is_negligible(self, limit: f64) -> bool {
+        self.re.is_negligible(limit) && self.eps == 0.0
     }
     fn sin(self) -> Self {
         chain(self, libm::sin(self.re), libm::cos(self.re))
@@ -254,7 +254,7 @@ impl Scalar for Dual64 {
         }
         let (mut last, mut at) = ((1.0, surplus(1.0)), (0.0, still));
         let mut best = (f64::INFINITY, f64::NAN);
-        for _ in 0..SECANTS {
+        for _ in 0..MAX_SECANTS {
             let change = at.0 - at.1 * (at.0 - last.0) / (at.1 - last.1);
             (last, at) = (at, (change, surplus(change)));
             if at.1.is_nan() || at.1.abs() >= best.0 {

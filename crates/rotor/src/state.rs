@@ -10,7 +10,7 @@ use super::{
 pub const MOST_FLAPPING_BLADES: usize = 8;
 
 /// Most states that an inflow model has.
-pub const MOST_INFLOW_STATES: usize = peters_he::MOST_STATES;
+pub const MOST_INFLOW_STATES: usize = peters_he::MAX_STATES;
 
 /// The states of a rotor, or how fast they change. What the models do not use stays 0.
 #[derive(Debug, Clone, Copy, PartialEq)]

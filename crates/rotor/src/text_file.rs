@@ -3,7 +3,7 @@
 use std::{fs, path::Path};
 
 /// Larger files are not tables of sections or rotors.
-const LARGEST: u64 = 64 << 20;
+const MAX_BYTES: u64 = 64 << 20;
 
 /// The text of a file, or a phrase that says why there is none. What is no plain file, such as a
 /// device that never ends, is not opened.
@@ -12,8 +12,11 @@ pub fn read(path: &Path) -> Result<String, String> {
     if !about.is_file() {
         return Err("it is no plain file".into());
     }
-    if about.len() > LARGEST {
-        return Err(format!("it has {} bytes, more than {LARGEST}", about.len()));
+    if about.len() > MAX_BYTES {
+        return Err(format!(
+            "it has {} bytes, more than {MAX_BYTES}",
+            about.len()
+        ));
     }
     let text = fs::read_to_string(path).map_err(|e| e.to_string())?;
     // Some editors begin a file with a mark of its encoding.

@@ -9,7 +9,7 @@ pub use file::RotorFileError;
 use thiserror::Error;
 
 /// Most blades of a rotor.
-pub const MOST_BLADES: u32 = 20;
+pub const MAX_BLADES: u32 = 20;
 
 /// Turning sense of the rotor, seen from above.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,9 +88,9 @@ impl Geometry {
         if self.blades == 0 {
             return fail("the number of blades is 0; it must be 1 or more".into());
         }
-        if self.blades > MOST_BLADES {
+        if self.blades > MAX_BLADES {
             return fail(format!(
-                "the number of blades is {}; it must be {MOST_BLADES} or fewer",
+                "the number of blades is {}; it must be {MAX_BLADES} or fewer",
                 self.blades
             ));
         }

@@ -236,7 +236,7 @@ pub fn solve<S: Scalar>(
 
 /// Whether a single place without flapping stands for all.
 fn is_one_for_all<S: Scalar>(flow: &DiscFlow<S>, places: &[Place<S>]) -> bool {
-    matches!(places, [place] if place.flap_sin.is_nothing(0.0)) && flow.is_axisymmetric()
+    matches!(places, [place] if place.flap_sin.is_negligible(0.0)) && flow.is_axisymmetric()
 }
 
 /// The inflow angle, rad, with the residual `start` at phi0 = `undisturbed`; `pitch` of the element.
@@ -255,7 +255,7 @@ fn inflow_angle<S: Scalar>(
     })?;
     // Nothing induced, or the mean flow brought to rest: the angle keeps its distance to phi0.
     let distance = found - undisturbed.value();
-    if start.is_nothing(0.0) || f64::abs(distance) > FRAC_PI_2 - FAR_END {
+    if start.is_negligible(0.0) || f64::abs(distance) > FRAC_PI_2 - FAR_END {
         return Ok(S::at_root(found, |phi| phi - undisturbed - distance));
     }
     Ok(S::at_root(found, equation))

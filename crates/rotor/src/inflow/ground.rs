@@ -53,7 +53,7 @@ impl<S: Scalar> Ground<S> {
             .at_most(1.0);
         let left = S::one() - t * t * (S::constant(3.0) - t * 2.0);
         let (along, down) = (edgewise * edgewise, induced * induced);
-        let slow = if along.is_nothing(0.0) {
+        let slow = if along.is_negligible(0.0) {
             S::one()
         } else {
             down / (down + along)

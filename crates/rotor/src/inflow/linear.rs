@@ -30,7 +30,7 @@ pub enum Skew {
 
 /// Flow through and along the disc, as a part of tip speed, beyond which Drees' terms in mu alone stay
 /// as they are. His fit is one to advance ratios of helicopters; a slow rotor in wind has any.
-const LARGEST_FLOW: f64 = 0.5;
+const MAX_FLOW: f64 = 0.5;
 
 /// The distribution's coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -84,7 +84,7 @@ impl Skew {
     /// The wake's skew is chi = atan(edgewise/|through|): a wake that leaves upwards is skewed like one
     /// that leaves downwards. Written with h = sqrt(edgewise^2 + through^2), sin chi = edgewise/h and
     /// tan(chi/2) = edgewise/(h + |through|), nothing divides by zero but in still air, where all are 0.
-    /// Drees' terms in mu alone are held beyond `LARGEST_FLOW`.
+    /// Drees' terms in mu alone are held beyond `MAX_FLOW`.
     pub fn coefficients<S: Scalar>(self, edgewise: S, through: S, tip_speed: S) -> Coefficients<S> {
         let Some(Wake { along, down, flow }) = Wake::new(edgewise, through) else {
             let (kx, ky) = (S::zero(), S::zero());
@@ -99,10 +99,10 @@ impl Skew {
             // (1 - cos chi)/sin chi = tan(chi/2), and mu/sin chi = h/tip speed.
             Self::Drees => {
                 let flow = edgewise.hypot(through);
-                let (mu, total) = if (tip_speed * LARGEST_FLOW).value() > flow.value() {
+                let (mu, total) = if (tip_speed * MAX_FLOW).value() > flow.value() {
                     (edgewise / tip_speed, flow / tip_speed)
                 } else {
-                    (sin * LARGEST_FLOW, S::constant(LARGEST_FLOW))
+                    (sin * MAX_FLOW, S::constant(MAX_FLOW))
                 };
                 ky = mu * -2.0;
                 (half_tangent - mu * 1.8 * total) * (4.0 / 3.0)

@@ -84,7 +84,7 @@ impl<S: Scalar> Field<S> {
 
     /// Whether all azimuths are alike but for `none` m/s.
     pub fn is_axisymmetric(&self, none: f64) -> bool {
-        self.cosine.is_nothing(none) && self.sine.is_nothing(none)
+        self.cosine.is_negligible(none) && self.sine.is_negligible(none)
     }
 
     /// `self + factor * other`.

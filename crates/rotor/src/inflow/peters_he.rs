@@ -45,18 +45,18 @@ use super::{Field, descent::MassFlow, pitt_peters::Stream};
 use crate::scalar::Scalar;
 use core::f64::consts::PI;
 
-pub const MOST_ORDER: usize = 6;
-pub const MOST_HARMONICS: usize = 4;
-pub const MOST_STATES: usize = 24;
-const MOST_COSINES: usize = 14;
+pub const MAX_ORDER: usize = 6;
+pub const MAX_HARMONICS: usize = 4;
+pub const MAX_STATES: usize = 24;
+const MAX_COSINES: usize = 14;
 
-type Matrix<S = f64> = [[S; MOST_COSINES]; MOST_COSINES];
+type Matrix<S = f64> = [[S; MAX_COSINES]; MAX_COSINES];
 
 /// cos(m psi) and sin(m psi), m from 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Harmonics<S = f64> {
-    pub cos: [S; MOST_HARMONICS + 1],
-    pub sin: [S; MOST_HARMONICS + 1],
+    pub cos: [S; MAX_HARMONICS + 1],
+    pub sin: [S; MAX_HARMONICS + 1],
 }
 
 /// The wake of a rotor up to a power of the radius.
@@ -73,9 +73,9 @@ pub struct Wake {
     /// phi at the blade elements, all functions of one element beside each other.
     radial: Vec<f64>,
     /// K of the cosines.
-    mass: [f64; MOST_COSINES],
+    mass: [f64; MAX_COSINES],
     /// Mean over the disc of the cosines with m = 0.
-    means: [f64; MOST_COSINES],
+    means: [f64; MAX_COSINES],
     /// Gamma, rows (r, j), columns (m, n).
     coupling: Matrix,
 }
@@ -95,7 +95,7 @@ struct Bounds {
 
 /// Computed as it says at `Bounds` with all harmonics, rounded up. With fewer the first is up to 3 % more, for which
 /// the margin of the steps in time has room.
-const BOUNDS: [Bounds; MOST_ORDER] = [
+const BOUNDS: [Bounds; MAX_ORDER] = [
     bounds([5.07, 1.11, 1.48, 2.80, 4.13]),
     bounds([11.32, 1.90, 3.70, 7.83, 11.60]),
     bounds([14.82, 2.71, 3.70, 16.98, 23.48]),
@@ -127,7 +127,7 @@ impl Wake {
     /// to the fourth, and make 3, 6, 10, 15, 19, 24 states. `radius_ratios`: r/R of the middles of the
     /// blade elements.
     pub fn new(order: usize, radius_ratios: &[f64]) -> Self {
-        Self::with_harmonics(order, MOST_HARMONICS, radius_ratios)
+        Self::with_harmonics(order, MAX_HARMONICS, radius_ratios)
     }
 
     /// The same with fewer harmonics than blades. Blades that turn carry a load that turns with them, of which
@@ -138,8 +138,8 @@ impl Wake {
     }
 
     fn with_harmonics(order: usize, most: usize, radius_ratios: &[f64]) -> Self {
-        let order = order.clamp(1, MOST_ORDER);
-        let harmonics = 0..=order.min(MOST_HARMONICS).min(most);
+        let order = order.clamp(1, MAX_ORDER);
+        let harmonics = 0..=order.min(MAX_HARMONICS).min(most);
         let indices: Vec<_> = harmonics
             .flat_map(|m| (m + 1..=order + 1).step_by(2).map(move |j| (m, j)))
             .collect();
@@ -157,9 +157,9 @@ impl Wake {
         };
         let radial = radius_ratios.iter().flat_map(phi).collect();
         let axial = indices.iter().filter(|(m, _)| *m == 0).count();
-        let mut mass = [0.0; MOST_COSINES];
-        let mut means = [0.0; MOST_COSINES];
-        let mut coupling = [[0.0; MOST_COSINES]; MOST_COSINES];
+        let mut mass = [0.0; MAX_COSINES];
+        let mut means = [0.0; MAX_COSINES];
+        let mut coupling = [[0.0; MAX_COSINES]; MAX_COSINES];
         for (i, (m, j)) in indices.iter().enumerate() {
             mass[i] = 2.0 / PI * h(*m, *j); // (71)
             for (k, (m, n)) in indices.iter().enumerate() {
@@ -198,10 +198,10 @@ impl Wake {
     /// m = 0 is left.
     pub fn harmonics<S: Scalar>(cos: S, sin: S) -> Harmonics<S> {
         let mut all = Harmonics {
-            cos: [S::one(); MOST_HARMONICS + 1],
-            sin: [S::zero(); MOST_HARMONICS + 1],
+            cos: [S::one(); MAX_HARMONICS + 1],
+            sin: [S::zero(); MAX_HARMONICS + 1],
         };
-        for m in 0..MOST_HARMONICS {
+        for m in 0..MAX_HARMONICS {
             all.cos[m + 1] = all.cos[m] * cos - all.sin[m] * sin;
             all.sin[m + 1] = all.sin[m] * cos + all.cos[m] * sin;
         }
@@ -258,7 +258,7 @@ impl Wake {
         let (states, loading) = (&states[..self.len()], &loading[..self.len()]);
         let flow = self.flow(states, stream);
         let cosines = self.indices.len();
-        let mut pressures = [S::zero(); MOST_STATES];
+        let mut pressures = [S::zero(); MAX_STATES];
         pressures[..states.len()].copy_from_slice(states);
         if flow.total.is_above(0.0) {
             let (of_cosines, of_sines) = pressures.split_at_mut(cosines);
@@ -280,10 +280,10 @@ impl Wake {
 
     /// The same field (or loading) in axes that are turned by an angle about the shaft, psi' = psi -
     /// angle, in the sense of `WindAxes::field_into_wind`; -sin turns back.
-    pub fn rotated<S: Scalar>(&self, states: &[S], cos: S, sin: S) -> [S; MOST_STATES] {
+    pub fn rotated<S: Scalar>(&self, states: &[S], cos: S, sin: S) -> [S; MAX_STATES] {
         let turn = Self::harmonics(cos, sin);
         let cosines = self.indices.len();
-        let mut turned = [S::zero(); MOST_STATES];
+        let mut turned = [S::zero(); MAX_STATES];
         turned[..self.axial].copy_from_slice(&states[..self.axial]);
         for (i, (m, _)) in self.indices.iter().enumerate().skip(self.axial) {
             let k = i + cosines - self.axial;
@@ -333,13 +333,13 @@ impl Wake {
     /// Whether all azimuths are alike but for `none` m/s in each state.
     pub fn is_axisymmetric<S: Scalar>(&self, states: &[S], none: f64) -> bool {
         let others = states.iter().take(self.len()).skip(self.axial);
-        others.into_iter().all(|state| state.is_nothing(none))
+        others.into_iter().all(|state| state.is_negligible(none))
     }
 
     /// The states of a field that looks like a linear one: the same mean, and the first functions for its
     /// slopes.
-    pub fn like(&self, field: &Field) -> [f64; MOST_STATES] {
-        let mut states = [0.0; MOST_STATES];
+    pub fn like(&self, field: &Field) -> [f64; MAX_STATES] {
+        let mut states = [0.0; MAX_STATES];
         states[0] = field.mean / self.means[0];
         if self.len() == self.axial {
             return states;
@@ -372,11 +372,11 @@ impl Wake {
     /// L: (74) and (75) of all cosines, or (76) of the sines, where `first` leaves m = 0 out.
     fn gains<S: Scalar>(&self, skew: S, first: usize) -> Matrix<S> {
         let sign = if first == 0 { 1.0 } else { -1.0 };
-        let mut powers = [S::one(); 2 * MOST_HARMONICS + 1];
+        let mut powers = [S::one(); 2 * MAX_HARMONICS + 1];
         for m in 1..powers.len() {
             powers[m] = powers[m - 1] * skew;
         }
-        let mut factors = [[S::zero(); MOST_HARMONICS + 1]; MOST_HARMONICS + 1];
+        let mut factors = [[S::zero(); MAX_HARMONICS + 1]; MAX_HARMONICS + 1];
         for (r, row) in factors.iter_mut().enumerate() {
             for (m, factor) in row.iter_mut().enumerate() {
                 let sign = if r.min(m).is_multiple_of(2) {
@@ -390,7 +390,7 @@ impl Wake {
                 };
             }
         }
-        let mut gains = [[S::zero(); MOST_COSINES]; MOST_COSINES];
+        let mut gains = [[S::zero(); MAX_COSINES]; MAX_COSINES];
         let indices = &self.indices[first..];
         for (i, (r, _)) in indices.iter().enumerate() {
             for (k, (m, _)) in indices.iter().enumerate() {
@@ -466,7 +466,7 @@ fn solve<S: Scalar>(matrix: &mut Matrix<S>, right: &mut [S]) {
         let inverse = S::one() / row[i];
         for k in i + 1..size {
             let factor = matrix[k][i] * inverse;
-            if factor.is_nothing(0.0) {
+            if factor.is_negligible(0.0) {
                 continue; // Gamma is sparse
             }
             for (entry, above) in matrix[k][i + 1..size].iter_mut().zip(&row[i + 1..size]) {

@@ -66,7 +66,7 @@ impl<S: Scalar> Stream<S> {
             speed: total,
             slope: slopes,
         } = self.descent.mass_flow(self.edgewise, self.climb, induced);
-        if total.is_nothing(0.0) {
+        if total.is_negligible(0.0) {
             return Gains {
                 mean: S::zero(),
                 mean_by_cosine: S::zero(),

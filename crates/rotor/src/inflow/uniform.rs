@@ -22,7 +22,7 @@ use crate::{
 const TOLERANCE: f64 = 1e-13;
 
 /// Doublings of the bracket after which there is no root within reach of a finite speed.
-const LARGEST_GROWTH: u32 = 60;
+const MAX_DOUBLINGS: u32 = 60;
 
 /// The mean induced velocity v0, m/s.
 ///
@@ -61,7 +61,7 @@ fn root(equation: impl Fn(f64) -> f64, climb: f64, scale: f64) -> Result<f64, Ro
         from = windmill;
     }
     let mut step = 0.1 * side * scale;
-    for _ in 0..LARGEST_GROWTH {
+    for _ in 0..MAX_DOUBLINGS {
         let to = end(from.at + step);
         if !to.residual.is_finite() {
             return Err(RootError::NotFinite);

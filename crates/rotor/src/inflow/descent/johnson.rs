@@ -31,7 +31,7 @@ const E: f64 = -2.0;
 const V_XM: f64 = 0.95;
 
 /// Bound on Newton's steps, of which it takes about six; then a bracket takes over.
-const NEWTON_STEPS: u32 = 30;
+const MAX_NEWTON_STEPS: u32 = 30;
 
 /// The boundary of instability at a V_x, all V_z in units of v_h.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -177,7 +177,7 @@ fn helicopter<S: Scalar>(edgewise: S, climb: S) -> S {
     }
     let (v_x, v_z) = (edgewise.value(), climb.value());
     let mut v = 1.0 + v_z.abs();
-    for _ in 0..NEWTON_STEPS {
+    for _ in 0..MAX_NEWTON_STEPS {
         let through = v_z + v;
         let flow = libm::sqrt(v_x * v_x + through * through);
         let step = (v * flow - 1.0) / (flow + v * through / flow);

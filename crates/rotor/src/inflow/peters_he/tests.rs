@@ -96,7 +96,7 @@ fn numbers_of_states() {
     for (order, states) in (1..).zip([3, 6, 10, 15, 19, 24]) {
         assert_eq!(Wake::new(order, &[]).len(), states);
     }
-    assert_eq!(Wake::new(9, &[]).len(), MOST_STATES);
+    assert_eq!(Wake::new(9, &[]).len(), MAX_STATES);
 }
 
 /// Moriarty & Hansen 2005, eqs. (64) to (67), and the orthogonality that follows from (59).
@@ -519,7 +519,7 @@ fn bounds_are_as_described() {
 fn fastest_rate_bounds_the_modes() {
     let ratios: Vec<_> = (0..40).map(|i| (i as f64 + 0.5) / 40.0).collect();
     let (solidity, tip_speed, radius) = (0.1, 100.0, 2.0);
-    for order in 1..=MOST_ORDER {
+    for order in 1..=MAX_ORDER {
         let wake = Wake::new(order, &ratios);
         let count = wake.len();
         for (edgewise, climb, mean) in [
@@ -601,14 +601,14 @@ fn time_constant_of_the_mean_in_hover() {
 
 #[test]
 fn all_flows_have_finite_rates() {
-    for order in 1..=MOST_ORDER {
+    for order in 1..=MAX_ORDER {
         let wake = Wake::new(order, &[]);
         let states = some_states(&wake);
         for states in [&states, &vec![0.0; wake.len()]] {
             let induced = wake.mean(states);
             for edgewise in [0.0, 1e-300, 1e-9, 1.0, 1e4] {
                 for climb in [0.0, -induced, -induced + 1e-12, -5.0, 1e4] {
-                    let mut rates = [f64::NAN; MOST_STATES];
+                    let mut rates = [f64::NAN; MAX_STATES];
                     let flow = stream(edgewise, climb, 1.0);
                     wake.rate(states, &vec![1.0; wake.len()], &flow, &mut rates);
                     for rate in &rates[..wake.len()] {
