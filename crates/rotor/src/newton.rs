@@ -1,15 +1,15 @@
-//! Newton's method for some equations in as many unknowns.
+//! Newton's method for several equations in as many unknowns.
 
 use nalgebra::{DMatrix, DVector};
 use num_dual::Dual64;
 
-/// Most matrices of slopes.
+/// Bound on the matrices of slopes.
 const MAX_MATRICES: usize = 30;
-/// Most steps with a matrix before it is made anew.
+/// Bound on the steps with a matrix before it is computed anew.
 const MAX_STEPS: usize = 8;
-/// Most halvings of a step that does not come closer.
+/// Bound on the halvings of a step that does not come closer.
 const MAX_HALVINGS: u32 = 10;
-/// Difference for the slopes.
+/// Difference of an unknown for the slopes.
 const SMALL: f64 = 1e-7;
 
 /// What a residual is computed for.
@@ -17,16 +17,20 @@ const SMALL: f64 = 1e-7;
 pub enum Use {
     /// Its value, which vanishes at the solution.
     Value,
-    /// Differences of two of them: an approximation will do if it is smooth and cheap.
+    /// The slopes, from differences: a smooth and cheap approximation will do.
     Slopes,
 }
 
-/// Where `residual` is 0, from `start`; none if that is not found within the method's bounds. All unknowns and
-/// residuals are of order 1.
+/// The place where `residual` is 0, searched from `start`. All unknowns and residuals are of order 1.
+/// None if the search fails within the method's bounds.
 ///
-/// The slopes are differences; from step to step they are corrected by Broyden's formula (1965, Math. Comp. 19,
-/// p. 577) as long as that comes closer by much. Steps that do not come closer are halved. Ends where
-/// a whole step is smaller than `tolerance`.
+/// The slopes are differences; from step to step Broyden's formula (1965, Math. Comp. 19, p. 577)
+/// corrects them, for as long as each step leaves at most a fifth of the residual. Steps that do not
+/// come closer are halved. The search ends where a whole step is smaller than `tolerance`.
+///
+/// # Errors
+///
+/// The error of `residual` at the start, or at the shortest step.
 pub fn solve<E>(
     start: DVector<f64>,
     tolerance: f64,
@@ -61,7 +65,7 @@ pub fn solve<E>(
             let mut next = (&at + &step, DVector::zeros(0));
             for halving in 0..=MAX_HALVINGS {
                 next.0 = &at + &step * part;
-                // Too far a step may lead to where nothing can be computed.
+                // Too long a step may lead to where the residual cannot be computed.
                 match residual(&next.0, Use::Value) {
                     Ok(value) => next.1 = value,
                     Err(error) if halving == MAX_HALVINGS => return Err(error),
@@ -88,8 +92,12 @@ pub fn solve<E>(
     Ok(None)
 }
 
-/// How the root of some equations, which was found at `root`, moves: the theorem of the implicit function, dx =
-/// -J^-1 (dR/dp) dp, with J from dual numbers. None where J has no inverse.
+/// The change of the root of several equations, which was found at `root`, by the implicit function
+/// theorem: dx = -J^-1 (dR/dp) dp, with J from dual numbers. None where J has no inverse.
+///
+/// # Errors
+///
+/// The error of `residual` at the root.
 pub fn derivative_at_root<E>(
     root: &DVector<f64>,
     mut residual: impl FnMut(&DVector<Dual64>) -> Result<DVector<Dual64>, E>,
