@@ -1,9 +1,11 @@
 //! Air: the standard atmosphere, or given values; viscosity and speed of sound.
 
-use super::scalar::Scalar;
+use super::scalar::{C, Scalar};
 
-/// Specific gas constant of air, J/(kg K), and ratio of specific heats (ISO 2533:1975).
+/// Specific gas constant of air, J/(kg K) (ISO 2533:1975).
 const GAS_CONSTANT: f64 = 287.052_87;
+
+/// Ratio of specific heats of air (ISO 2533:1975).
 const HEAT_RATIO: f64 = 1.4;
 
 /// Acceleration of gravity, m/s2 (ISO 2533:1975).
@@ -23,19 +25,22 @@ pub struct Air<S = f64> {
 impl<S: Scalar> Air<S> {
     /// Air of a given density (kg/m3, > 0) and temperature (K, > 0).
     ///
-    /// Speed of sound of the ideal gas; viscosity by Sutherland's law with the constants of
-    /// ISO 2533:1975, eq. (22): mu = 1.458e-6 T^1.5/(T + 110.4).
+    /// The speed of sound is that of the ideal gas, sqrt(gamma R T). The viscosity follows
+    /// Sutherland's law with the constants of ISO 2533:1975, eq. (22):
+    /// mu = 1.458e-6 T^1.5/(T + 110.4).
     pub fn new(density: S, temperature: S) -> Self {
         Self {
             density,
-            speed_of_sound: (temperature * (HEAT_RATIO * GAS_CONSTANT)).sqrt(),
-            viscosity: temperature * 1.458e-6 * temperature.sqrt() / (temperature + 110.4),
+            speed_of_sound: (C(HEAT_RATIO * GAS_CONSTANT) * temperature).sqrt(),
+            viscosity: C(1.458e-6) * temperature * temperature.sqrt() / (temperature + 110.4),
         }
     }
 
     /// International Standard Atmosphere (ISO 2533:1975) at a geometric altitude above mean sea
-    /// level, m, from -2,000 to 20,000: the layer of constant lapse rate 6.5 K/km up to 11 km of
-    /// geopotential altitude, above it the layer of constant temperature.
+    /// level, -2,000 to 20,000 m.
+    ///
+    /// Up to a geopotential altitude of 11 km the temperature falls by 6.5 K/km; above, it is
+    /// constant.
     pub fn standard(altitude: S) -> Self {
         const EARTH_RADIUS: f64 = 6_356_766.0;
         const SEA_LEVEL_TEMPERATURE: f64 = 288.15;
@@ -43,17 +48,17 @@ impl<S: Scalar> Air<S> {
         const LAPSE_RATE: f64 = 0.0065;
         const TROPOPAUSE: f64 = 11_000.0;
 
-        let geopotential = altitude * EARTH_RADIUS / (altitude + EARTH_RADIUS);
+        let geopotential = C(EARTH_RADIUS) * altitude / (C(EARTH_RADIUS) + altitude);
         let below = geopotential.at_most(TROPOPAUSE);
-        let temperature = S::constant(SEA_LEVEL_TEMPERATURE) - below * LAPSE_RATE;
+        let temperature = C(SEA_LEVEL_TEMPERATURE) - C(LAPSE_RATE) * below;
         let exponent = STANDARD_GRAVITY / (GAS_CONSTANT * LAPSE_RATE);
         let mut pressure =
-            (temperature / SEA_LEVEL_TEMPERATURE).power(exponent) * SEA_LEVEL_PRESSURE;
+            C(SEA_LEVEL_PRESSURE) * (temperature / SEA_LEVEL_TEMPERATURE).power(exponent);
         if geopotential.is_above(TROPOPAUSE) {
-            let scale_height = temperature * GAS_CONSTANT / STANDARD_GRAVITY;
-            pressure *= ((S::constant(TROPOPAUSE) - geopotential) / scale_height).exp();
+            let scale_height = C(GAS_CONSTANT) * temperature / STANDARD_GRAVITY;
+            pressure *= ((C(TROPOPAUSE) - geopotential) / scale_height).exp();
         }
-        Self::new(pressure / (temperature * GAS_CONSTANT), temperature)
+        Self::new(pressure / (C(GAS_CONSTANT) * temperature), temperature)
     }
 }
 

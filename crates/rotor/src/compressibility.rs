@@ -1,22 +1,24 @@
 //! Correction of a section's lift coefficient for Mach number.
 //!
-//! The rules were made for pressure coefficients; like the thesis (section 3.4) we apply them to
+//! The rules were made for pressure coefficients. Like the thesis (section 3.4) we apply them to
 //! the lift coefficient, with its magnitude in place of Cp so that the correction has no
 //! preferred sign. With a positive Cp in their denominators, Karman & Tsien's and Laitone's rules
 //! then raise the lift less than Prandtl & Glauert's; on the suction that makes most of a real
-//! section's lift they raise it more. All rules leave the lift as it is at Mach 0.
+//! section's lift they raise it more. At Mach 0 no rule changes the lift.
 
-use super::scalar::Scalar;
+use super::scalar::{C, Scalar};
 
-/// Above this Mach number the rules are held: Prandtl & Glauert's is singular at 1, and none is
-/// meant for transonic flow.
-const LARGEST_MACH: f64 = 0.9;
+/// Above this Mach number the rules are held: Prandtl & Glauert's is singular at Mach 1, and no
+/// rule is meant for transonic flow.
+const MAX_MACH: f64 = 0.9;
 
 /// Ratio of specific heats of air.
 const HEAT_RATIO: f64 = 1.4;
 
+/// The rule that takes an incompressible lift coefficient to a Mach number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Compressibility {
+    /// The lift coefficient does not depend on the Mach number.
     None,
     /// Prandtl & Glauert: Glauert 1928, Proc. R. Soc. A 118, p. 113; thesis eq. (52).
     PrandtlGlauert,
@@ -27,29 +29,37 @@ pub enum Compressibility {
 }
 
 impl Compressibility {
-    /// Lift coefficient at Mach number `mach` (>= 0) from the incompressible one.
+    /// Lift coefficient at the Mach number `mach` (>= 0, held above 0.9) from the incompressible
+    /// one, `lift` (any value).
     pub fn correct<S: Scalar>(self, lift: S, mach: S) -> S {
-        if self == Self::None {
-            return lift;
+        match self {
+            Self::None => lift,
+            Self::PrandtlGlauert | Self::KarmanTsien | Self::Laitone => {
+                lift / self.divisor(lift, mach)
+            }
         }
-        lift / self.divisor(lift, mach)
     }
 
-    /// By what the incompressible lift coefficient is divided.
+    /// The number > 0 by which a rule divides the incompressible lift coefficient `lift` (any value)
+    /// at the Mach number `mach` (>= 0, held above 0.9):
+    ///
+    /// * Prandtl & Glauert: beta = sqrt(1 - M^2)
+    /// * Karman & Tsien: beta + M^2/(1 + beta) cl/2
+    /// * Laitone: beta + M^2 (1 + (gamma - 1)/2 M^2)/beta cl/2
     pub fn divisor<S: Scalar>(self, lift: S, mach: S) -> S {
         let mach_squared = {
-            let held = mach.at_most(LARGEST_MACH);
+            let held = mach.at_most(MAX_MACH);
             held * held
         };
-        let beta = (S::one() - mach_squared).sqrt();
-        let half_lift = lift.abs() * 0.5;
+        let beta = (C(1.0) - mach_squared).sqrt();
+        let half_lift = C(0.5) * lift.abs();
         match self {
             Self::None => S::one(),
             Self::PrandtlGlauert => beta,
-            Self::KarmanTsien => beta + mach_squared / (beta + 1.0) * half_lift,
+            Self::KarmanTsien => beta + mach_squared / (C(1.0) + beta) * half_lift,
             Self::Laitone => {
-                beta + mach_squared * (mach_squared * (0.5 * (HEAT_RATIO - 1.0)) + 1.0) / beta
-                    * half_lift
+                let stagnation = C(1.0) + C(0.5 * (HEAT_RATIO - 1.0)) * mach_squared;
+                beta + mach_squared * stagnation / beta * half_lift
             }
         }
     }

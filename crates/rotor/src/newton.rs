@@ -1,15 +1,15 @@
-//! Newton's method for some equations in as many unknowns.
+//! Newton's method for several equations in as many unknowns.
 
 use nalgebra::{DMatrix, DVector};
 use num_dual::Dual64;
 
-/// Most matrices of slopes.
-const MATRICES: usize = 30;
-/// Most steps with a matrix before it is made anew.
-const STEPS: usize = 8;
-/// Most halvings of a step that does not come closer.
-const HALVINGS: u32 = 10;
-/// Difference for the slopes.
+/// Bound on the matrices of slopes.
+const MAX_MATRICES: usize = 30;
+/// Bound on the steps with a matrix before it is computed anew.
+const MAX_STEPS: usize = 8;
+/// Bound on the halvings of a step that does not come closer.
+const MAX_HALVINGS: u32 = 10;
+/// Difference of an unknown for the slopes.
 const SMALL: f64 = 1e-7;
 
 /// What a residual is computed for.
@@ -17,16 +17,20 @@ const SMALL: f64 = 1e-7;
 pub enum Use {
     /// Its value, which vanishes at the solution.
     Value,
-    /// Differences of two of them: an approximation will do if it is smooth and cheap.
+    /// The slopes, from differences: a smooth and cheap approximation will do.
     Slopes,
 }
 
-/// Where `residual` is 0, from `start`; none if that is not found within the method's bounds. All unknowns and
-/// residuals are of order 1.
+/// The place where `residual` is 0, searched from `start`. All unknowns and residuals are of order 1.
+/// None if the search fails within the method's bounds.
 ///
-/// The slopes are differences; from step to step they are corrected by Broyden's formula (1965, Math. Comp. 19,
-/// p. 577) as long as that comes closer by much. Steps that do not come closer are halved. Ends where
-/// a whole step is smaller than `tolerance`.
+/// The slopes are differences; from step to step Broyden's formula (1965, Math. Comp. 19, p. 577)
+/// corrects them, for as long as each step leaves at most a fifth of the residual. Steps that do not
+/// come closer are halved. The search ends where a whole step is smaller than `tolerance`.
+///
+/// # Errors
+///
+/// The error of `residual` at the start, or at the shortest step.
 pub fn solve<E>(
     start: DVector<f64>,
     tolerance: f64,
@@ -35,7 +39,7 @@ pub fn solve<E>(
     let count = start.len();
     let mut at = start;
     let mut value = residual(&at, Use::Value)?;
-    for _ in 0..MATRICES {
+    for _ in 0..MAX_MATRICES {
         if !value.norm().is_finite() {
             return Ok(None);
         }
@@ -49,7 +53,7 @@ pub fn solve<E>(
             other[i] += SMALL;
             slopes.set_column(i, &((residual(&other, Use::Slopes)? - &base) / SMALL));
         }
-        for _ in 0..STEPS {
+        for _ in 0..MAX_STEPS {
             let Some(step) = slopes.clone().lu().solve(&-&value) else {
                 return Ok(None);
             };
@@ -59,18 +63,18 @@ pub fn solve<E>(
             let before = value.norm();
             let mut part = 1.0;
             let mut next = (&at + &step, DVector::zeros(0));
-            for halving in 0..=HALVINGS {
+            for halving in 0..=MAX_HALVINGS {
                 next.0 = &at + &step * part;
-                // Too far a step may lead to where nothing can be computed.
+                // Too long a step may lead to where the residual cannot be computed.
                 match residual(&next.0, Use::Value) {
                     Ok(value) => next.1 = value,
-                    Err(error) if halving == HALVINGS => return Err(error),
+                    Err(error) if halving == MAX_HALVINGS => return Err(error),
                     Err(_) => {
                         part *= 0.5;
                         continue;
                     }
                 }
-                if next.1.norm() < before || halving == HALVINGS {
+                if next.1.norm() < before || halving == MAX_HALVINGS {
                     break;
                 }
                 part *= 0.5;
@@ -88,8 +92,12 @@ pub fn solve<E>(
     Ok(None)
 }
 
-/// How the root of some equations, which was found at `root`, moves: the theorem of the implicit function, dx =
-/// -J^-1 (dR/dp) dp, with J from dual numbers. None where J has no inverse.
+/// The change of the root of several equations, which was found at `root`, by the implicit function
+/// theorem: dx = -J^-1 (dR/dp) dp, with J from dual numbers. None where J has no inverse.
+///
+/// # Errors
+///
+/// The error of `residual` at the root.
 pub fn derivative_at_root<E>(
     root: &DVector<f64>,
     mut residual: impl FnMut(&DVector<Dual64>) -> Result<DVector<Dual64>, E>,

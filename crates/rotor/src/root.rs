@@ -2,13 +2,16 @@
 
 use thiserror::Error;
 
-/// Why no root was returned. Neither happens for finite input with a change of sign.
+/// Why no root was returned. A finite residual that changes its sign always has one.
 #[derive(Debug, Error, Clone, Copy, PartialEq, Eq)]
 pub enum RootError {
+    /// The residual or an end of the bracket is NaN or infinite.
     #[error("the residual is not a finite number inside the bracket")]
     NotFinite,
+    /// The bracket does not enclose a root.
     #[error("the residual has the same sign at both ends of the bracket")]
     NoSignChange,
+    /// More evaluations than twice those of bisection.
     #[error("the bracket did not close within the method's bound on evaluations")]
     OutOfIterations,
 }
@@ -16,7 +19,9 @@ pub enum RootError {
 /// One end of a bracket: a place, and the residual there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct End {
+    /// The place, in the unit of the unknown.
     pub at: f64,
+    /// The residual there, in any unit.
     pub residual: f64,
 }
 
@@ -25,12 +30,17 @@ pub struct End {
 /// without using derivatives", Adv. Eng. Softw. 28(3), p. 145): inverse quadratic interpolation
 /// where the last three points allow it, else bisection.
 ///
-/// Bound: after as many steps as bisection alone would need, only bisection is used, so that
-/// there are never more than twice those steps.
+/// Bound: after as many steps as bisection alone would need, only bisection is used. So there are
+/// never more than twice as many steps.
 ///
-/// * `first`, `last`: the ends, in either order. Their residuals steer the first steps only: where
+/// * `first`, `last`: the ends, in either order. Their residuals steer only the first steps: where
 ///   just the sign at an end is known, any value of that sign will do.
-/// * `tolerance`: to which the root is found, in the unit of the places; raised to their rounding.
+/// * `tolerance`: of the root, > 0, in the unit of the places; raised to their rounding
+///
+/// # Errors
+///
+/// [`RootError::NotFinite`] if an end or a residual is NaN or infinite; [`RootError::NoSignChange`]
+/// if the residuals at both ends have the same sign.
 pub fn bracketed(
     mut residual: impl FnMut(f64) -> f64,
     first: End,
@@ -153,7 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn an_end_at_which_only_the_sign_is_known_is_no_root() {
+    fn an_end_with_a_known_sign_only_is_not_taken_for_the_root() {
         // sin(x)(x - 1) vanishes at pi too, but changes its sign at 1.
         let residual = |x: f64| libm::sin(x) * (x - 1.0);
         let first = End {
@@ -169,7 +179,7 @@ mod tests {
     }
 
     #[test]
-    fn ends_of_one_sign_and_residuals_that_are_no_numbers_are_errors() {
+    fn ends_of_one_sign_and_residuals_that_are_not_finite_are_errors() {
         let first = End {
             at: 0.0,
             residual: -1.0,

@@ -1,11 +1,13 @@
 //! The number type of the physics: a plain double or, where derivatives are wanted, a dual number.
 //!
-//! The elementary functions come from the `libm` crate: those of the standard library
-//! differ in their last bits between platforms, and the same FMU must give the same bits on all.
+//! The elementary functions come from the `libm` crate: those of the standard library differ in
+//! their last bits between platforms, and the same FMU must give the same bits on all of them.
 //!
-//! A dual number (of the `num-dual` crate) carries the derivative along one direction. Where the physics has a
-//! corner, in a table or in a magnitude, it carries the one-sided derivative towards the side to which the
-//! direction leads: branches whose sides meet ask `is_below` and `is_above`, not the value.
+//! A dual number (of the `num-dual` crate) carries the derivative along one direction. Where the
+//! physics has a corner, in a table or in a magnitude, it carries the one-sided derivative towards
+//! the side to which the direction leads. So a branch whose two sides meet asks
+//! [`Scalar::is_below`] or [`Scalar::is_above`] and not the value. The decision record
+//! `docs/decisions/0001-one-sided-derivatives.md` says why.
 
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
 use num_dual::Dual64;
@@ -15,16 +17,36 @@ use std::{
     ops::{Add, Div, Mul, Neg, Sub},
 };
 
-/// A constant in a formula, so that it can stand on the left as it is printed: `C(3.0) - C(2.0) * t`.
+/// A constant in a formula, written on the left as in print: `C(3.0) - C(2.0) * t`.
 ///
-/// Rust allows no `f64 * S` for a generic `S`, but it allows operators of a type of our own.
+/// Rust allows no `f64 * S` for a generic `S`, but it allows the operators of a type of our own.
+/// Each operator costs one operation of `S` and rounds as the printed order says:
+///
+/// | written    | computed                   |
+/// |------------|----------------------------|
+/// | `C(a) + x` | `x + a`, the same bits     |
+/// | `C(a) * x` | `x * a`, the same bits     |
+/// | `C(a) - x` | `S::constant(a) - x`       |
+/// | `C(a) / x` | `S::constant(a) / x`       |
+///
+/// Rust reads `C(a) * x * y` as `(C(a) * x) * y`; write `C(a) * (x * y)` for the other order.
+///
+/// ```
+/// use rotor::scalar::{C, Scalar};
+///
+/// /// Hermite's weight of the far end, 0 to 1: s(t) = t^2 (3 - 2 t).
+/// fn weight<S: Scalar>(t: S) -> S {
+///     t * t * (C(3.0) - C(2.0) * t)
+/// }
+/// assert_eq!(weight(0.5), 0.5);
+/// ```
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct C(pub f64);
 
 impl<S: Scalar> Add<S> for C {
     type Output = S;
     fn add(self, other: S) -> S {
-        S::constant(self.0) + other
+        other + self.0
     }
 }
 
@@ -49,7 +71,9 @@ impl<S: Scalar> Div<S> for C {
     }
 }
 
-/// A real number with the arithmetic and functions that the physics uses. Angles are radians.
+/// A real number with the arithmetic and the functions that the physics uses. Angles are in rad.
+///
+/// Outside its domain a function gives NaN, as the functions of `libm` do; no function panics.
 pub trait Scalar:
     nalgebra::Scalar
     + Copy
@@ -66,32 +90,39 @@ pub trait Scalar:
     + Mul<f64, Output = Self>
     + Div<f64, Output = Self>
 {
-    /// A constant.
+    /// A constant: its derivative is 0.
     fn constant(value: f64) -> Self;
-    /// The value without derivatives.
+    /// The value without the derivative.
     fn value(self) -> f64;
-    /// Whether it lies below `limit`, or at it and about to fall below.
+    /// Whether it lies below `limit`, or at `limit` and is about to fall below it.
     fn is_below(self, limit: f64) -> bool;
-    /// Whether it lies above `limit`, or at it and about to rise above.
+    /// Whether it lies above `limit`, or at `limit` and is about to rise above it.
     fn is_above(self, limit: f64) -> bool;
-    /// Whether the magnitude is at most `most` and does not change.
-    fn is_negligible(self, most: f64) -> bool;
+    /// Whether its magnitude is at most `limit`, and it does not change.
+    fn is_negligible(self, limit: f64) -> bool;
+    /// Sine of an angle, rad.
     fn sin(self) -> Self;
+    /// Cosine of an angle, rad.
     fn cos(self) -> Self;
+    /// Inverse cosine, 0 to pi rad, of -1 to 1.
     fn acos(self) -> Self;
+    /// e to the power of `self`.
     fn exp(self) -> Self;
+    /// Natural logarithm of a positive number.
     fn ln(self) -> Self;
+    /// Square root of a number >= 0.
     fn sqrt(self) -> Self;
-    /// `self` to a constant power.
+    /// `self` (>= 0) to a constant power.
     fn power(self, exponent: f64) -> Self;
-    /// Angle of the point (x, self).
+    /// Angle of the point (x, self), -pi to pi rad, counted from the x axis.
     fn atan2(self, x: Self) -> Self;
     /// Distance of the point (self, other) from the origin.
     fn hypot(self, other: Self) -> Self;
+    /// Magnitude. At 0 its derivative is that of the side to which the number moves.
     fn abs(self) -> Self {
         if self.is_below(0.0) { -self } else { self }
     }
-    /// `self` or the constant `floor`, whichever is larger.
+    /// `self` or the constant `floor`, the larger of the two.
     fn at_least(self, floor: f64) -> Self {
         if self.is_below(floor) {
             Self::constant(floor)
@@ -99,7 +130,7 @@ pub trait Scalar:
             self
         }
     }
-    /// `self` or the constant `ceiling`, whichever is smaller.
+    /// `self` or the constant `ceiling`, the smaller of the two.
     fn at_most(self, ceiling: f64) -> Self {
         if self.is_above(ceiling) {
             Self::constant(ceiling)
@@ -107,12 +138,15 @@ pub trait Scalar:
             self
         }
     }
-    /// Cosine and sine of the direction of the point (x, y); at the origin of that into which it leaves it,
-    /// and none if it stays there.
+    /// Cosine and sine of the direction of the point (x, y). A point at the origin has the
+    /// direction into which it leaves it, or none if it stays there.
     fn direction(x: Self, y: Self) -> Option<(Self, Self)>;
-    /// The root of an equation, which was found at `place`. A dual number gets its derivative by the theorem of the
-    /// implicit function, dx = -(dR/dp) dp/(dR/dx), at the root, not through the search for it; where the root lies at
-    /// a corner of the residual, with the slope of the side to which it moves.
+    /// The root of an equation, already found at `place`, with its derivative.
+    ///
+    /// A dual number gets the derivative by the implicit function theorem,
+    /// dx = -(dR/dp) dp/(dR/dx), at the root and not through the search for it. Where the root lies
+    /// at a corner of the residual, the slope is that of the side to which the root moves. The
+    /// derivative is NaN where the residual does not change with x.
     fn at_root(place: f64, residual: impl FnMut(Self) -> Self) -> Self;
 }
 
@@ -129,8 +163,8 @@ impl Scalar for f64 {
     fn is_above(self, limit: f64) -> bool {
         self > limit
     }
-    fn is_negligible(self, most: f64) -> bool {
-        f64::abs(self) <= most
+    fn is_negligible(self, limit: f64) -> bool {
+        f64::abs(self) <= limit
     }
     fn sin(self) -> Self {
         libm::sin(self)
@@ -168,17 +202,20 @@ impl Scalar for f64 {
     }
 }
 
-/// A function of `x` with the value and slope that it has there; what does not change stays so whatever the slope,
-/// and a function without slope whatever the change.
+/// A function of `x` from its value and slope there. An `x` that does not change gives a result that
+/// does not change, even where the slope is infinite; so does a slope of 0, even where the change is
+/// infinite.
 fn chain(x: Dual64, value: f64, slope: f64) -> Dual64 {
     let is_still = x.eps == 0.0 || slope == 0.0;
     let change = if is_still { 0.0 } else { slope * x.eps };
     Dual64::new(value, change)
 }
 
-/// Most steps of the secant method to the change of a root at a corner, and the part of the equation that is left to
-/// rounding. Without a corner the first step is the theorem, and ends the search.
-const SECANTS: u32 = 30;
+/// Bound on the steps of the secant method that finds the change of a root at a corner. Without a
+/// corner the first step is the implicit function theorem, and ends the search.
+const MAX_SECANTS: u32 = 30;
+
+/// The search ends where this part of the residual's change is left, which is rounding.
 const ROUNDING: f64 = 1e-10;
 
 impl Scalar for Dual64 {
@@ -194,8 +231,8 @@ impl Scalar for Dual64 {
     fn is_above(self, limit: f64) -> bool {
         self.re > limit || (self.re == limit && self.eps > 0.0)
     }
-    fn is_negligible(self, most: f64) -> bool {
-        self.re.is_negligible(most) && self.eps == 0.0
+    fn is_negligible(self, limit: f64) -> bool {
+        self.re.is_negligible(limit) && self.eps == 0.0
     }
     fn sin(self) -> Self {
         chain(self, libm::sin(self.re), libm::cos(self.re))
@@ -246,7 +283,8 @@ impl Scalar for Dual64 {
         direction.map(|(cos, sin)| (Self::from_re(cos), Self::from_re(sin)))
     }
     fn at_root(place: f64, mut residual: impl FnMut(Self) -> Self) -> Self {
-        // How the residual changes where the root moves so fast: linear, but where corners meet at the root.
+        // The change of the residual if the root moves by `change`. It is linear in `change`, except
+        // where corners meet at the root.
         let mut surplus = |change: f64| residual(Self::new(place, change)).eps;
         let still = surplus(0.0);
         if still == 0.0 {
@@ -254,7 +292,7 @@ impl Scalar for Dual64 {
         }
         let (mut last, mut at) = ((1.0, surplus(1.0)), (0.0, still));
         let mut best = (f64::INFINITY, f64::NAN);
-        for _ in 0..SECANTS {
+        for _ in 0..MAX_SECANTS {
             let change = at.0 - at.1 * (at.0 - last.0) / (at.1 - last.1);
             (last, at) = (at, (change, surplus(change)));
             if at.1.is_nan() || at.1.abs() >= best.0 {
@@ -344,8 +382,42 @@ mod tests {
         assert!((moves(-3.0, both) + 9.0).abs() < 1e-8);
     }
 
+    /// Each operator of `C` against the same formula with the constant on the right, bit for bit.
     #[test]
-    fn a_function_without_slope_stays_whatever_the_change() {
+    fn constants_on_the_left_have_the_bits_of_those_on_the_right() {
+        for (a, x) in [(3.0, 0.1), (0.1, -7.3), (1.2e-7, 1e9), (0.0, -0.0)] {
+            assert_eq!((C(a) + x).to_bits(), (x + a).to_bits());
+            assert_eq!((C(a) - x).to_bits(), (a - x).to_bits());
+            assert_eq!((C(a) * x).to_bits(), (x * a).to_bits());
+            assert_eq!((C(a) / x).to_bits(), (a / x).to_bits());
+            let bits = |dual: Dual64| (dual.re.to_bits(), dual.eps.to_bits());
+            for change in [0.7, 0.0, -0.0] {
+                let x = Dual64::new(x, change);
+                assert_eq!(bits(C(a) + x), bits(x + a));
+                assert_eq!(bits(C(a) - x), bits(Dual64::from_re(a) - x));
+                assert_eq!(bits(C(a) * x), bits(x * a));
+                let (found, expected) = (C(a) / x, Dual64::from_re(a) / x);
+                assert_eq!(bits(found), bits(expected));
+            }
+        }
+    }
+
+    /// By hand at x = 2, dx = 1: 3 + x, 3 - x, 3 x and 3/x.
+    #[test]
+    fn constants_on_the_left_have_the_derivatives_of_calculus() {
+        let x = Dual64::new(2.0, 1.0);
+        for (found, value, slope) in [
+            (C(3.0) + x, 5.0, 1.0),
+            (C(3.0) - x, 1.0, -1.0),
+            (C(3.0) * x, 6.0, 3.0),
+            (C(3.0) / x, 1.5, -0.75),
+        ] {
+            assert_eq!((found.re, found.eps), (value, slope));
+        }
+    }
+
+    #[test]
+    fn a_function_without_slope_does_not_change_even_under_an_infinite_change() {
         assert_eq!(Dual64::new(-f64::INFINITY, f64::INFINITY).exp().eps, 0.0);
     }
 }

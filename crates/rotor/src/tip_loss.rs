@@ -1,63 +1,80 @@
-//! Loss of lift at the blade tip.
+//! Loss of lift at the blade tip and root.
+//!
+//! A tip loss model acts in one of three ways, and each has a function here: as Prandtl's factor F
+//! ([`TipLoss::factor`]), by ending the lift at a radius that the blade's shape gives
+//! ([`TipLoss::fixed_end`]), or at a radius that depends on the thrust ([`TipLoss::end_at_thrust`]).
 
-use super::{geometry::Geometry, scalar::Scalar};
+use super::{
+    geometry::Geometry,
+    scalar::{C, Scalar},
+};
 use core::f64::consts::FRAC_2_PI;
 
+/// The tip loss model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TipLoss {
+    /// The lift goes on to the tip.
     None,
     /// Prandtl 1919 (appendix to Betz, "Schraubenpropeller mit geringstem Energieverlust"), with
     /// the local inflow angle as Glauert 1935 (Airplane Propellers, ch. VII, eq. 5.7) writes it.
     Prandtl,
-    /// The same at the root too, as Ning 2014 (Wind Energy 17, p. 1327) writes it.
+    /// Prandtl's factor for the tip times that for the root, as Ning 2014 (Wind Energy 17, p. 1327) writes it.
     PrandtlTipAndRoot,
-    /// Lift ends half a tip chord before the tip, B = 1 - c/(2R): Wheatley 1934, NACA Rep. 487, p. 5;
-    /// Gessow & Myers 1952, "Aerodynamics of the Helicopter"; thesis eq. (96).
+    /// Lift ends half a tip chord before the tip, B = 1 - c/(2R): Wheatley 1934, NACA Rep. 487,
+    /// p. 5; Gessow & Myers 1952, "Aerodynamics of the Helicopter"; thesis eq. (96).
     HalfTipChord,
-    /// Lift ends at B = 1 - c0 (1 + 0.7 tau)/(1.5 R), c0 the root chord and tau the tip chord over it:
-    /// Sissingh 1939, as in Leishman 2006, section 3.3.10.
+    /// Lift ends at B = 1 - c0 (1 + 0.7 tau)/(1.5 R), with the root chord c0 and the taper ratio
+    /// tau, tip chord over root chord: Sissingh 1939, as in Leishman 2006, section 3.3.10.
     Sissingh,
-    /// Lift ends at B = 1 - sqrt(CT)/N: Prandtl 1919 for the inflow of hover, Leishman 2006, section
-    /// 3.3.10.
+    /// Lift ends at B = 1 - sqrt(CT)/N: Prandtl 1919 for the inflow of hover, Leishman 2006,
+    /// section 3.3.10.
     PrandtlThrust,
 }
 
-/// Where an element lies, as far as its losses are concerned.
+/// What the loss of a blade element depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Span {
+    /// Number of blades N, >= 1.
     pub blades: f64,
-    /// r/R of the element's middle, and of the root cutout, in (0, 1).
+    /// r/R of the element's middle, above that of the cutout and below 1.
     pub radius_ratio: f64,
+    /// r/R of the root cutout, above 0 and below 1.
     pub cutout: f64,
 }
 
 impl TipLoss {
-    /// Ratio of the annulus' mean induced velocity to that at the blade, 0 to 1.
+    /// Prandtl's factor F, 0 to 1: the mean induced velocity around the annulus over that at the
+    /// blade. It is 1 for models without a factor, and where no air passes through the disc
+    /// (phi = 0).
     ///
-    /// Prandtl: F = 2/pi acos(exp(-f)), f = (N/2) (R - r)/(r |sin phi|); thesis eq. (95) is this
-    /// with sin phi = lambda/r. At the root f = (N/2) (r - r0)/(r0 |sin phi|), and F is the product. F = 1
-    /// where the air does not pass through the disc (phi = 0).
+    /// At the tip F = 2/pi acos(exp(-f)), f = (N/2) (R - r)/(r |sin phi|); thesis eq. (95) is this
+    /// with sin phi = lambda/r. At the root f = (N/2) (r - r0)/(r0 |sin phi|).
+    ///
+    /// * `sin_inflow`: sine of the inflow angle phi, -1 to 1
     pub fn factor<S: Scalar>(self, span: &Span, sin_inflow: S) -> S {
         let Span {
             blades,
             radius_ratio,
             cutout,
         } = *span;
-        let loss = |distance: f64| {
-            let exponent = S::constant(0.5 * blades * distance) / sin_inflow.abs();
-            (-exponent).exp().acos() * FRAC_2_PI
+        if sin_inflow.value() == 0.0 {
+            return S::one();
+        }
+        // From the distance to an end of the blade over the radius of the inner of the two.
+        let factor_at = |distance: f64| {
+            let f = C(0.5 * blades * distance) / sin_inflow.abs();
+            C(FRAC_2_PI) * (-f).exp().acos()
         };
+        let tip = (1.0 - radius_ratio) / radius_ratio;
+        let root = (radius_ratio - cutout) / cutout;
         match self {
-            _ if sin_inflow.value() == 0.0 => S::constant(1.0),
-            Self::Prandtl => loss((1.0 - radius_ratio) / radius_ratio),
-            Self::PrandtlTipAndRoot => {
-                loss((1.0 - radius_ratio) / radius_ratio) * loss((radius_ratio - cutout) / cutout)
-            }
-            _ => S::constant(1.0),
+            Self::Prandtl => factor_at(tip),
+            Self::PrandtlTipAndRoot => factor_at(tip) * factor_at(root),
+            Self::None | Self::HalfTipChord | Self::Sissingh | Self::PrandtlThrust => S::one(),
         }
     }
 
-    /// r/R at which the lift ends, where the blade's shape alone says so.
+    /// r/R at which the lift ends, for models that take it from the blade's shape alone.
     pub fn fixed_end(self, geometry: &Geometry) -> Option<f64> {
         let (tip, radius) = (geometry.tip_chord, geometry.radius);
         match self {
@@ -66,19 +83,33 @@ impl TipLoss {
                 let root = geometry.stations.first().map_or(tip, |s| s.chord);
                 Some(1.0 - (root + 0.7 * tip) / (1.5 * radius))
             }
-            _ => None,
+            Self::None | Self::Prandtl | Self::PrandtlTipAndRoot | Self::PrandtlThrust => None,
         }
     }
 
-    /// r/R at which the lift ends, where it depends on the thrust coefficient (its magnitude).
+    /// r/R at which the lift ends, 0 to 1, for models in which it depends on the thrust.
+    ///
+    /// * `blades`: number of blades N, >= 1
+    /// * `thrust_coefficient`: magnitude of CT = T/(rho A (Omega R)^2), >= 0
     pub fn end_at_thrust<S: Scalar>(self, blades: f64, thrust_coefficient: S) -> Option<S> {
-        let end = S::one() - thrust_coefficient.sqrt() / blades;
-        (self == Self::PrandtlThrust).then(|| end.at_least(0.0))
+        match self {
+            Self::PrandtlThrust => {
+                Some((C(1.0) - thrust_coefficient.sqrt() / blades).at_least(0.0))
+            }
+            Self::None
+            | Self::Prandtl
+            | Self::PrandtlTipAndRoot
+            | Self::HalfTipChord
+            | Self::Sissingh => None,
+        }
     }
 }
 
-/// Share of a blade element's width that carries lift, which ends at `end`: the element across it counts in
-/// part, so that the thrust does not jump with the number of elements. Any unit of length.
+/// Share of a blade element's width that carries lift, 0 to 1. The element in which the lift ends
+/// counts in part, so that the thrust does not jump with the number of elements.
+///
+/// * `inner`, `outer`: radii of the element's edges, inner below outer
+/// * `end`: radius at which the lift ends, in the same unit
 pub fn lifting_share<S: Scalar>(inner: f64, outer: f64, end: S) -> S {
     ((end - inner) / (outer - inner)).at_least(0.0).at_most(1.0)
 }

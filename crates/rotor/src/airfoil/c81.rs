@@ -26,7 +26,7 @@ const NEEDED_COUNTS: usize = 4;
 const COUNTS: usize = 6;
 
 /// More Mach numbers or angles are those of no table.
-const LARGEST_COUNT: usize = 999;
+const MAX_COUNT: usize = 999;
 
 /// The first line.
 #[derive(Debug, PartialEq)]
@@ -69,7 +69,7 @@ fn read(text: &str) -> Result<Airfoil, Problem> {
 fn count(text: &str) -> Option<usize> {
     let is_digits = text.bytes().all(|b| b.is_ascii_digit());
     let value = text.parse().ok().filter(|_| is_digits);
-    value.filter(|n| (1..=LARGEST_COUNT).contains(n))
+    value.filter(|n| (1..=MAX_COUNT).contains(n))
 }
 
 fn header(line: &str) -> Option<Header> {

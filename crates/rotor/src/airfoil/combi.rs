@@ -26,13 +26,13 @@ const NAME: &str = "airfoil";
 
 /// Columns without the coefficients of the drag polynomial.
 const COLUMNS: usize = 4;
-const MOST_DRAG_COEFFICIENTS: usize = 7;
+const MAX_DRAG_COEFFICIENTS: usize = 7;
 
 /// Steeper lift (1/rad) is that of no section.
-const STEEPEST: f64 = 20.0;
+const MAX_SLOPE: f64 = 20.0;
 
 /// Later stall (deg) is that of no section in steady flow.
-const LATEST_STALL: f64 = 45.0;
+const MAX_STALL: f64 = 45.0;
 
 /// Angles up to stall at which the drag polynomial is tried.
 const TRIED: usize = 200;
@@ -208,9 +208,9 @@ fn chosen(mut tables: Vec<Matrix>) -> Result<Matrix, Problem> {
 
 /// The rows as laws.
 fn laws(matrix: &Matrix) -> Result<Laws, Problem> {
-    if !(COLUMNS + 1..=COLUMNS + MOST_DRAG_COEFFICIENTS).contains(&matrix.columns) {
+    if !(COLUMNS + 1..=COLUMNS + MAX_DRAG_COEFFICIENTS).contains(&matrix.columns) {
         let problem = format!(
-            "the table {} must have 5 to 11 columns: Reynolds number, lift slopes A and C in 1/rad, stall angle in rad, and 1 to {MOST_DRAG_COEFFICIENTS} coefficients of the drag polynomial",
+            "the table {} must have 5 to 11 columns: Reynolds number, lift slopes A and C in 1/rad, stall angle in rad, and 1 to {MAX_DRAG_COEFFICIENTS} coefficients of the drag polynomial",
             matrix.title()
         );
         return Err((matrix.line, 1, problem));
@@ -240,25 +240,25 @@ fn law(row: &[Number], before: Option<&Law>) -> Result<Law, Problem> {
         );
         return refuse(reynolds, problem);
     }
-    if !(slope_a.value > 0.0 && slope_a.value <= STEEPEST) {
+    if !(slope_a.value > 0.0 && slope_a.value <= MAX_SLOPE) {
         let problem = format!(
-            "lift slope A = {} must be above 0 and at most {STEEPEST} per rad",
+            "lift slope A = {} must be above 0 and at most {MAX_SLOPE} per rad",
             slope_a.value
         );
         return refuse(slope_a, problem);
     }
-    if !(0.0..=STEEPEST).contains(&slope_c.value) {
+    if !(0.0..=MAX_SLOPE).contains(&slope_c.value) {
         let problem = format!(
-            "lift slope C = {} must be 0 to {STEEPEST} per rad",
+            "lift slope C = {} must be 0 to {MAX_SLOPE} per rad",
             slope_c.value
         );
         return refuse(slope_c, problem);
     }
-    if !(stall.value > 0.0 && stall.value <= LATEST_STALL.to_radians()) {
+    if !(stall.value > 0.0 && stall.value <= MAX_STALL.to_radians()) {
         let problem = format!(
-            "stall angle {} must be above 0 and at most {:.3} rad ({LATEST_STALL} deg); angles are in rad",
+            "stall angle {} must be above 0 and at most {:.3} rad ({MAX_STALL} deg); angles are in rad",
             stall.value,
-            LATEST_STALL.to_radians()
+            MAX_STALL.to_radians()
         );
         return refuse(stall, problem);
     }

@@ -42,7 +42,7 @@ const EDGE: f64 = 3.0 * PI / 180.0;
 const ROUNDING: f64 = 1e-12;
 
 /// Largest drag coefficient beyond stall: 1.11 + 0.018 times the aspect ratio 50.
-const LARGEST_DRAG: f64 = 2.01;
+const MAX_DRAG: f64 = 2.01;
 
 /// Lift in reversed flow against that in flow from the front.
 const REVERSED_LIFT: f64 = -0.7;
@@ -123,9 +123,9 @@ impl Law {
     fn stalled_lift<S: Scalar>(&self, at_stall: f64, alpha: S) -> S {
         let (sin_stall, cos_stall) = (libm::sin(self.stall), libm::cos(self.stall));
         let a2 =
-            (at_stall - LARGEST_DRAG * sin_stall * cos_stall) * sin_stall / (cos_stall * cos_stall);
+            (at_stall - MAX_DRAG * sin_stall * cos_stall) * sin_stall / (cos_stall * cos_stall);
         let (sin, cos) = (alpha.sin(), alpha.cos());
-        sin * cos * LARGEST_DRAG + cos * cos / sin * a2
+        sin * cos * MAX_DRAG + cos * cos / sin * a2
     }
 
     /// Drag coefficient up to stall at an angle >= 0.
@@ -147,9 +147,9 @@ impl Law {
         }
         let (sin_stall, cos_stall) = (libm::sin(self.stall), libm::cos(self.stall));
         let at_stall = self.attached_drag(self.stall);
-        let b2 = (at_stall - LARGEST_DRAG * sin_stall * sin_stall) / cos_stall;
+        let b2 = (at_stall - MAX_DRAG * sin_stall * sin_stall) / cos_stall;
         let sin = folded.sin();
-        sin * sin * LARGEST_DRAG + folded.cos() * b2
+        sin * sin * MAX_DRAG + folded.cos() * b2
     }
 }
 

@@ -2,26 +2,28 @@
 
 use super::Geometry;
 
-/// Blade elements of equal width from the cutout to the tip. SI units.
+/// Blade elements of equal width from the cutout to the tip. All arrays have one entry for each
+/// element, from the inside out. SI units.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Elements {
     /// Width of each element, m.
     pub width: f64,
     /// Radius of the element's middle, m.
     pub radius: Vec<f64>,
-    /// Mean chord over the element, m: the blade's area is kept whatever the number of elements.
+    /// Mean chord over the element, m: any number of elements has the area of the blade.
     pub chord: Vec<f64>,
-    /// Pitch less the collective, rad.
+    /// Pitch of the section less the collective, rad, positive nose up.
     pub twist: Vec<f64>,
-    /// Indices of the airfoils of the stations on either side.
+    /// Index of the airfoil of the next station inboard, in `Geometry::airfoils`.
     pub inner_airfoil: Vec<usize>,
+    /// Index of the airfoil of the next station outboard.
     pub outer_airfoil: Vec<usize>,
-    /// Share, 0 to 1, of the outer airfoil in the section's coefficients.
+    /// Share of the outer airfoil in the section's coefficients, 0 to 1.
     pub outer_share: Vec<f64>,
 }
 
 impl Elements {
-    /// Cuts a checked geometry into `count` (>= 1) elements.
+    /// Cuts a geometry that passed [`Geometry::check`] into `count` (>= 1) elements.
     pub fn new(geometry: &Geometry, count: usize) -> Self {
         let cutout = geometry.cutout();
         let step = (1.0 - cutout) / count as f64;
@@ -50,6 +52,7 @@ impl Elements {
         elements
     }
 
+    /// Number of elements.
     pub fn len(&self) -> usize {
         self.radius.len()
     }
@@ -59,6 +62,7 @@ impl Elements {
         self.radius.iter().map(|r| r / radius).collect()
     }
 
+    /// Whether there are no elements.
     pub fn is_empty(&self) -> bool {
         self.radius.is_empty()
     }

@@ -11,7 +11,7 @@
 //! ]
 //! ```
 //!
-//! `name` and `source` are free text. `twist` is the pitch less that at any one radius: the
+//! `name` and `source` are free text. Only differences of `twist` between stations count: the
 //! collective is the pitch at the reference radius. Without `airfoil` a station has the rotor's
 //! standard airfoil.
 
@@ -24,18 +24,32 @@ use thiserror::Error;
 /// What is wrong with a rotor file, and where.
 #[derive(Debug, Error, Clone, PartialEq)]
 pub enum RotorFileError {
+    /// The file is missing, is not a plain file, is too large or is not text.
     #[error("rotor file {file}: cannot be read ({reason}); give a file that exists and is text")]
-    Unreadable { file: String, reason: String },
+    Unreadable {
+        /// The file's path.
+        file: String,
+        /// Why it cannot be read.
+        reason: String,
+    },
+    /// The file breaks the rules of TOML, or a name or type is wrong.
     #[error("rotor file {file}, line {line}, column {column}: {problem}")]
     Malformed {
+        /// The file's path.
         file: String,
+        /// Line of the problem, from 1.
         line: usize,
+        /// Column of the problem, from 1.
         column: usize,
+        /// What is wrong there.
         problem: String,
     },
+    /// The file is sound, but the models cannot compute its shape.
     #[error("rotor file {file}: {problem}")]
     Shape {
+        /// The file's path.
         file: String,
+        /// The value outside its range.
         problem: GeometryError,
     },
 }
@@ -79,7 +93,11 @@ struct FileStation {
 }
 
 impl Geometry {
-    /// Reads and checks a rotor definition.
+    /// Reads and checks a rotor definition file.
+    ///
+    /// # Errors
+    ///
+    /// The first problem, with the file and, where it has one, its line and column.
     pub fn read(path: &Path) -> Result<Self, RotorFileError> {
         let file = path.display().to_string();
         let text = text_file::read(path).map_err(|reason| RotorFileError::Unreadable {
@@ -137,7 +155,7 @@ fn parse(text: &str, file: &str) -> Result<Geometry, RotorFileError> {
     Ok(geometry)
 }
 
-/// Largest chord in the outer tenth of the radius, so that a rounded tip is not taken for none.
+/// Largest chord in the outer tenth of the radius: a rounded tip has a chord of 0 at its end.
 fn largest_outer_chord(geometry: &Geometry) -> f64 {
     let at_its_inner_end = geometry.interpolate(0.9_f64.max(geometry.cutout()), |s| s.chord);
     let outer = geometry.stations.iter().filter(|s| s.radius_ratio >= 0.9);

@@ -8,46 +8,55 @@ pub use file::RotorFileError;
 
 use thiserror::Error;
 
-/// Most blades of a rotor.
+/// Maximum number of blades.
 pub const MAX_BLADES: u32 = 20;
 
 /// Turning sense of the rotor, seen from above.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rotation {
+    /// The blade at psi = 90 deg is on the right.
     CounterClockwise,
+    /// The blade at psi = 90 deg is on the left.
     Clockwise,
 }
 
-/// The blade at one radius. Between stations chord, twist and section are linear in radius.
+/// The blade at one radius. Between stations the chord, the twist and the section's coefficients
+/// are linear in radius.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Station {
-    /// r/R, 0 to 1.
+    /// r/R, above 0, up to 1.
     pub radius_ratio: f64,
-    /// m, >= 0.
+    /// Chord, >= 0, m.
     pub chord: f64,
-    /// Pitch of the section less that at r/R = 0, rad, positive nose up.
+    /// Pitch of the section less that of any reference that is the same for all stations, rad,
+    /// positive nose up.
     pub twist: f64,
     /// Index of the section's airfoil in `Geometry::airfoils`.
     pub airfoil: usize,
 }
 
-/// A rotor's shape. Lengths in m, angles in rad.
+/// A rotor's shape. Lengths in m, angles in rad. [`Geometry::check`] tells whether the values are
+/// within their ranges.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Geometry {
+    /// Number of blades, 1 to `MAX_BLADES`.
     pub blades: u32,
+    /// Rotor radius R, > 0, m.
     pub radius: f64,
-    /// Fraction of R at which the pitch equals the collective.
+    /// r/R at which the pitch equals the collective, 0 to 1.
     pub pitch_reference_radius: f64,
+    /// Turning sense.
     pub rotation: Rotation,
-    /// Chord that stands for the tip in tip losses and in the tip's Reynolds number.
+    /// Chord of the tip for tip losses and for the tip's Reynolds number, >= 0, m.
     pub tip_chord: f64,
-    /// From the cutout to the tip (r/R = 1), at least two, radii strictly increasing.
+    /// Stations from the cutout (r/R > 0) to the tip (r/R = 1): two or more, radii strictly
+    /// increasing.
     pub stations: Vec<Station>,
     /// Airfoil files of the sections; an empty name is the rotor's standard airfoil.
     pub airfoils: Vec<String>,
 }
 
-/// What is wrong with a shape, and what would be right.
+/// What is wrong with a shape, and what would be right: a sentence.
 #[derive(Debug, Error, Clone, PartialEq)]
 #[error("{0}")]
 pub struct GeometryError(String);
@@ -55,8 +64,12 @@ pub struct GeometryError(String);
 impl Geometry {
     /// A blade of linear chord and twist from `cutout` (r/R) to the tip, of one airfoil.
     ///
-    /// * `chord`: at the cutout, m; `taper_ratio`: tip chord over it
-    /// * `twist`: from the shaft to the tip, rad
+    /// * `blades`: 1 to `MAX_BLADES`
+    /// * `radius`: > 0, m
+    /// * `cutout`: r/R, above 0 and below 1
+    /// * `chord`: at the cutout, > 0, m
+    /// * `taper_ratio`: tip chord over the chord at the cutout, >= 0
+    /// * `twist`: pitch at the tip less that at the shaft, rad; negative for washout
     pub fn linear(
         blades: u32,
         radius: f64,
@@ -83,6 +96,10 @@ impl Geometry {
     }
 
     /// Refuses shapes that the models cannot compute.
+    ///
+    /// # Errors
+    ///
+    /// The first value outside its range, with the range.
     pub fn check(&self) -> Result<(), GeometryError> {
         let fail = |text: String| Err(GeometryError(text));
         if self.blades == 0 {
@@ -141,7 +158,7 @@ impl Geometry {
         Ok(())
     }
 
-    /// r/R at which the blade begins.
+    /// r/R of the root cutout, where the blade begins.
     pub fn cutout(&self) -> f64 {
         self.stations.first().map_or(0.0, |s| s.radius_ratio)
     }
@@ -152,13 +169,14 @@ impl Geometry {
             - self.interpolate(self.pitch_reference_radius, |s| s.twist)
     }
 
-    /// Linear between the stations, and along the innermost interval's line inside the cutout.
+    /// A quantity at a radius: linear between the stations; inside the cutout it follows the line
+    /// of the innermost interval.
     fn interpolate(&self, radius_ratio: f64, quantity: impl Fn(&Station) -> f64) -> f64 {
         let (inner, outer, weight) = self.between(radius_ratio);
         quantity(inner) + weight * (quantity(outer) - quantity(inner))
     }
 
-    /// The stations around a radius, and how far it lies from the inner to the outer one.
+    /// The stations to either side of a radius, and how far (0 to 1) it lies towards the outer one.
     fn between(&self, radius_ratio: f64) -> (&Station, &Station, f64) {
         let outer = self
             .stations
@@ -190,7 +208,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn shapes_that_cannot_be_are_refused_with_the_remedy() {
+    fn impossible_shapes_are_refused_with_the_remedy() {
         let good = Geometry::linear(3, 1.0, 0.2, 0.1, 0.5, -0.1);
         assert_eq!(good.check(), Ok(()));
         type Spoil = fn(&mut Geometry);

@@ -5,41 +5,43 @@
 //! lambda = sqrt((A - lambda_c/2)^2 + 2 A theta r) - (A - lambda_c/2),   A = sigma cl_alpha/16
 //! ```
 //!
-//! with dCT = sigma cl_alpha/2 (theta r^2 - lambda r) dr, eq. (93), and dCP = sigma/2 (phi cl +
-//! cd) r^3 dr, eq. (91), phi = lambda/r. Everything is multiplied by the tip speed here, so that
-//! a rotor at rest is no special case.
+//! with dCT = sigma cl_alpha/2 (theta r^2 - lambda r) dr, eq. (93), and
+//! dCP = sigma/2 (phi cl + cd) r^3 dr, eq. (91), phi = lambda/r. Here everything is multiplied by
+//! the tip speed, so that a rotor at standstill is no special case.
 //!
 //! Negative pitch. The thesis (section 3.2) takes the magnitude of theta under the root and gives
-//! the root the sign of theta. Taken to the letter, lambda would jump by 2 A where theta changes
-//! its sign, and the thrust would have the wrong sign; mirroring the rotor in its disc shows that
-//! A changes its sign too. So we mirror the whole equation: lambda(-theta, -lambda_c) =
-//! -lambda(theta, lambda_c).
+//! the root the sign of theta. Then lambda would jump by 2 A where theta changes its sign, and the
+//! thrust would have the wrong sign. Mirroring the rotor in its disc shows that A changes its sign
+//! too. So we mirror the whole equation: lambda(-theta, -lambda_c) = -lambda(theta, lambda_c).
 //!
 //! Fast descent. Where the air passes upwards through the disc (lambda < 0), the mass flow is
-//! -lambda and the same derivation gives lambda = (A + lambda_c/2) - sqrt((A + lambda_c/2)^2 -
-//! 2 A theta r), the windmill, which is taken where it exists.
+//! -lambda and the same derivation gives
+//! lambda = (A + lambda_c/2) - sqrt((A + lambda_c/2)^2 - 2 A theta r). This windmill state is taken
+//! where it exists.
 //!
-//! Tip loss. Prandtl's F multiplies the momentum, A becomes A/F (Leishman 2006, eq. 3.126), and F
+//! Tip loss. Prandtl's F multiplies the momentum, so A becomes A/F (Leishman 2006, eq. 3.126). F
 //! depends on lambda: one bracketed unknown.
 
 use crate::{
     airfoil::{Airfoil, wrapped},
     element::{Element, SectionLoad},
     root::{End, RootError, bracketed},
-    scalar::Scalar,
+    scalar::{C, Scalar},
     tip_loss::TipLoss,
 };
 
-/// What the closed form answers for an element. SI units.
+/// The answer of the closed form for a blade element. SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClosedForm<S = f64> {
+    /// Loads of one blade's section.
     pub load: SectionLoad<S>,
-    /// Induced velocity at the blade, and its mean around the annulus, positive down.
+    /// Induced velocity at the blade, positive down, m/s.
     pub induced: S,
+    /// Mean of the induced velocity around the annulus, positive down, m/s.
     pub mean_induced: S,
 }
 
-/// To which the flow through the disc is found, as a part of its bracket.
+/// Tolerance of the flow through the disc, as a part of its bracket.
 const TOLERANCE: f64 = 1e-14;
 
 /// Speed of a section, m/s, below which it counts as standing still.
@@ -54,17 +56,23 @@ fn through_flow<S: Scalar>(a: S, climb: S, pitch_flow: S) -> S {
     if pitch_flow.is_below(0.0) {
         return -through_flow(a, -climb, -pitch_flow);
     }
-    let upward = a + climb * 0.5;
-    let windmill = upward * upward - a * 2.0 * pitch_flow;
+    let upward = a + C(0.5) * climb;
+    let windmill = upward * upward - C(2.0) * a * pitch_flow;
     if upward.value() < 0.0 && windmill.value() >= 0.0 {
         return upward - windmill.sqrt();
     }
-    let half = a - climb * 0.5;
-    (half * half + a * 2.0 * pitch_flow).sqrt() - half
+    let half = a - C(0.5) * climb;
+    (half * half + C(2.0) * a * pitch_flow).sqrt() - half
 }
 
-/// The flow and the loads at one element, axial flow only: `rotation` is Omega r, `climb` the flow
-/// down through the disc, both m/s.
+/// The flow and the loads at one blade element in axial flow.
+///
+/// * `rotation`: Omega r, m/s; below 1e-6 m/s there is no load
+/// * `climb`: flow down through the disc, any sign, m/s
+///
+/// # Errors
+///
+/// Where the data of the element or the flow are not finite, so that Prandtl's F has no solution.
 pub fn solve<S: Scalar>(
     element: &Element<S>,
     rotation: S,
@@ -72,7 +80,7 @@ pub fn solve<S: Scalar>(
 ) -> Result<ClosedForm<S>, RootError> {
     let none = S::zero();
     if rotation.value() < STANDSTILL {
-        // Angles are small against a flow that turns; without one there is no load in this theory.
+        // Angles are small only against the flow of rotation. At standstill this theory has no load.
         return Ok(ClosedForm {
             load: SectionLoad::none(),
             induced: none,
@@ -112,7 +120,7 @@ pub fn solve<S: Scalar>(
     let angle_of_attack = wrapped(element.pitch - inflow_angle);
     let lift = corrected * (pitch - inflow_angle);
     let drag = element.drag_coefficient(angle_of_attack, rotation);
-    let pressure = element.density * 0.5 * rotation * rotation * element.chord;
+    let pressure = C(0.5) * element.density * rotation * rotation * element.chord;
     let induced = through - climb;
     Ok(ClosedForm {
         load: SectionLoad {
@@ -144,10 +152,16 @@ fn loaded_flow<S: Scalar>(
     let pitch_flow = pitch * rotation;
     let with = |factor: S| through_flow(a / factor, climb, pitch_flow);
     let without_loss = with(S::one());
-    if element.tip_loss != TipLoss::Prandtl {
-        return Ok(without_loss);
+    match element.tip_loss {
+        TipLoss::Prandtl => {}
+        // No loss, or the end of the lift, which `slope` contains.
+        TipLoss::None | TipLoss::HalfTipChord | TipLoss::Sissingh | TipLoss::PrandtlThrust => {
+            return Ok(without_loss);
+        }
+        // The flow leaves the factor out; only the mean induced velocity has it.
+        TipLoss::PrandtlTipAndRoot => return Ok(without_loss),
     }
-    // F falls from 1 to 0 as the flow goes from `without_loss` to its limit, theta Omega r.
+    // The solution lies between `without_loss` (F = 1) and its limit theta Omega r (F = 0).
     let residual = |through: S| {
         let factor = factor(element, rotation, through);
         if factor.value() > 0.0 {
@@ -174,6 +188,7 @@ fn loaded_flow<S: Scalar>(
     Ok(S::at_root(through, residual))
 }
 
+/// Prandtl's F in a flow through the disc, m/s.
 fn factor<S: Scalar>(element: &Element<S>, rotation: S, through: S) -> S {
     element.tip_loss_factor(through / rotation) // small angle, as in thesis eq. (95)
 }

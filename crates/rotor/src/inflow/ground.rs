@@ -1,57 +1,71 @@
-//! Ground effect: the ground holds back the wake, and the blades meet less induced velocity than the thrust
-//! would make far from it.
+//! Ground effect: the ground holds back the wake, so the blades meet less induced velocity than
+//! the same thrust induces far from the ground.
 //!
-//! What is published is the thrust at the same power, or the power at the same thrust; with P = T v k and
-//! T = 2 rho A v^2 in hover, k the part of the induced velocity that is left, thrust at the same power grows
-//! by k^(-2/3) and power at the same thrust falls by k.
+//! Published is the gain of thrust at the same power, or the loss of power at the same thrust. In
+//! hover P = T v k and T = 2 rho A v^2, where k is the part of the induced velocity that is left.
+//! Hence thrust at the same power grows by k^(-2/3), and power at the same thrust falls by k.
 //!
-//! * Cheeseman & Bennett 1955, ARC R&M 3021: T/T_far = 1/(1 - G), G = (R/(4 z))^2/(1 + (V_x/v)^2) at
-//!   the same power, so k = (1 - G)^(3/2).
-//! * Hayden 1976, 32nd AHS Forum: P/P_far = 1/(0.9926 + 0.0379 (2 R/z)^2) at the same thrust, from flight
-//!   tests in hover. The same fading with forward speed is ours.
+//! * Cheeseman & Bennett 1955, ARC R&M 3021: T/T_far = 1/(1 - G),
+//!   G = (R/(4 z))^2/(1 + (V_x/v)^2), at the same power, so k = (1 - G)^(3/2).
+//! * Hayden 1976, 32nd AHS Forum: P/P_far = 1/(0.9926 + 0.0379 (2 R/z)^2) at the same thrust, from
+//!   flight tests in hover. Ours: it fades with forward speed as Cheeseman & Bennett's does.
 //!
-//! Ours: below z = R/2, where neither was tried and the first would become infinite, the height counts as R/2;
-//! from 2 R up both fade, and are gone at 3 R.
+//! Ours: heights below R/2 count as R/2. Neither model was tried there, and Cheeseman & Bennett's
+//! would become infinite. From z = 2 R to 3 R both fade out.
 
-use crate::scalar::Scalar;
+use crate::scalar::{C, Scalar};
 
-/// The choice of model.
+/// The model of ground effect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum GroundEffect {
+    /// No ground.
     #[default]
     None,
+    /// Cheeseman & Bennett 1955.
     CheesemanBennett,
+    /// Hayden 1976.
     Hayden,
 }
 
 /// The rotor near the ground.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Ground<S = f64> {
+    /// The model.
     pub effect: GroundEffect,
-    /// z/R of the hub, >= 0.
+    /// Height of the hub above the ground over the rotor radius, z/R, >= 0.
     pub height_ratio: S,
 }
 
-/// z/R below which the effect stays the same, and between which it fades out.
-const LOWEST: f64 = 0.5;
+/// z/R below which the effect stays the same.
+const MIN_HEIGHT: f64 = 0.5;
+
+/// z/R at which the effect begins to fade out with height, and at which it is gone.
 const FADING: (f64, f64) = (2.0, 3.0);
 
 impl<S: Scalar> Ground<S> {
-    /// Whether the ground is not felt at all.
+    /// Whether the ground has no effect.
     pub fn is_far(&self) -> bool {
-        self.effect == GroundEffect::None || self.height_ratio.value() >= FADING.1
+        match self.effect {
+            GroundEffect::None => true,
+            GroundEffect::CheesemanBennett | GroundEffect::Hayden => {
+                self.height_ratio.value() >= FADING.1
+            }
+        }
     }
 
-    /// k, 0 to 1: the part of the induced velocity that is left. `edgewise` (>= 0) and `induced`, m/s.
+    /// k, 0 to 1: the part of the induced velocity that is left.
+    ///
+    /// * `edgewise`: flow along the disc, >= 0, m/s
+    /// * `induced`: mean induced velocity far from the ground, any sign, m/s
     pub fn factor(&self, edgewise: S, induced: S) -> S {
         if self.is_far() {
             return S::one();
         }
-        let height = self.height_ratio.at_least(LOWEST);
+        let height = self.height_ratio.at_least(MIN_HEIGHT);
         let t = ((height - FADING.0) / (FADING.1 - FADING.0))
             .at_least(0.0)
             .at_most(1.0);
-        let left = S::one() - t * t * (S::constant(3.0) - t * 2.0);
+        let left = C(1.0) - t * t * (C(3.0) - C(2.0) * t);
         let (along, down) = (edgewise * edgewise, induced * induced);
         let slow = if along.is_negligible(0.0) {
             S::one()
@@ -61,12 +75,12 @@ impl<S: Scalar> Ground<S> {
         match self.effect {
             GroundEffect::None => S::one(),
             GroundEffect::CheesemanBennett => {
-                let thrust = S::one() - left * slow / (height * 16.0 * height);
+                let thrust = C(1.0) - left * slow / (C(16.0) * height * height);
                 thrust * thrust.sqrt()
             }
             GroundEffect::Hayden => {
-                let power = S::one() / (S::constant(0.0379 * 4.0) / (height * height) + 0.9926);
-                S::one() - left * slow * (S::one() - power)
+                let power = C(1.0) / (C(0.9926) + C(0.0379 * 4.0) / (height * height));
+                C(1.0) - left * slow * (C(1.0) - power)
             }
         }
     }

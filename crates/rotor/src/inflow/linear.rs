@@ -1,19 +1,19 @@
-//! Linear distributions of the induced velocity over the disc: v = v0 (1 + x (kx cos psi + ky sin
-//! psi)), x = r/R, psi from downwind. The coefficients are those collected in Leishman 2006,
-//! "Principles of Helicopter Aerodynamics", table 3.1; the thesis' table 5.
+//! Linear distributions of the induced velocity over the disc:
+//! v = v0 (1 + x (kx cos psi + ky sin psi)), x = r/R, psi from downwind. The coefficients are those
+//! collected in Leishman 2006, "Principles of Helicopter Aerodynamics", table 3.1; thesis table 5.
 
-use crate::scalar::Scalar;
+use crate::scalar::{C, Scalar};
 use core::f64::consts::{PI, SQRT_2};
 
 /// How the induced velocity varies over the disc with the skew of the wake.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Skew {
-    /// Not at all: Glauert 1926, ARC R&M 1111.
+    /// No variation: Glauert 1926, ARC R&M 1111.
     Uniform,
     /// Coleman, Feingold & Stempin 1945, NACA WR L-126: kx = tan(chi/2).
     Coleman,
-    /// Drees 1949, J. Helicopter Assoc. Gt. Britain 3(2): kx = 4/3 (1 - cos chi - 1.8 mu^2)/sin chi,
-    /// ky = -2 mu.
+    /// Drees 1949, J. Helicopter Assoc. Gt. Britain 3(2):
+    /// kx = 4/3 (1 - cos chi - 1.8 mu^2)/sin chi, ky = -2 mu.
     Drees,
     /// Payne 1959, "Helicopter Dynamics and Aerodynamics": kx = 4/3 (mu/lambda)/(1.2 + mu/lambda).
     Payne,
@@ -23,32 +23,37 @@ pub enum Skew {
     PittPeters,
     /// Howlett 1981, NASA CR-166309: kx = sin^2 chi.
     Howlett,
-    /// Glauert 1926, ARC R&M 1111, for mu > 0.1: kx = 1.2. The factor sin chi, which is 1 there, is ours: hover
-    /// has no rear towards which the inflow could grow.
+    /// Glauert 1926, ARC R&M 1111, for mu > 0.1: kx = 1.2. Ours is kx = 1.2 sin chi. At such speeds
+    /// sin chi is about 1; in hover the disc has no rear towards which the inflow could grow.
     GlauertHighSpeed,
 }
 
-/// Flow through and along the disc, as a part of tip speed, beyond which Drees' terms in mu alone stay
-/// as they are. His fit is one to advance ratios of helicopters; a slow rotor in wind has any.
-const LARGEST_FLOW: f64 = 0.5;
+/// Resultant flow at the disc over tip speed above which Drees' terms in mu are held. He fitted them
+/// to the advance ratios of helicopters; a slow rotor in wind can have any advance ratio.
+const MAX_FLOW: f64 = 0.5;
 
 /// The distribution's coefficients.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Coefficients<S = f64> {
+    /// Growth towards psi = 0 from the shaft to the tip, as a part of the mean.
     pub kx: S,
+    /// The same towards psi = 90 deg.
     pub ky: S,
 }
 
-/// The flow that skews the wake: along the disc and away from it, both >= 0, and the resultant. Any unit.
+/// The flow that skews the wake, in any unit of speed.
 pub struct Wake<S> {
+    /// Along the disc, >= 0.
     pub along: S,
+    /// Away from the disc, >= 0.
     pub down: S,
+    /// The resultant of the two, > 0.
     pub flow: S,
 }
 
 impl<S: Scalar> Wake<S> {
-    /// From the flow along the disc (>= 0) and through it, m/s. In still air only the direction counts into which
-    /// the flow is about to leave it; none if it stays still.
+    /// From the flow along the disc (>= 0) and through it (any sign), m/s. In still air it is the
+    /// direction of the flow that is about to begin, or none if the air stays still.
     pub fn new(edgewise: S, through: S) -> Option<Self> {
         let flow = edgewise.hypot(through);
         if flow.value() != 0.0 {
@@ -67,6 +72,7 @@ impl<S: Scalar> Wake<S> {
 }
 
 impl Skew {
+    /// All distributions.
     pub const ALL: [Self; 8] = [
         Self::Uniform,
         Self::Coleman,
@@ -78,13 +84,16 @@ impl Skew {
         Self::GlauertHighSpeed,
     ];
 
-    /// Coefficients in a flow along the disc (>= 0) and through it (any sign), m/s, for a rotor of the
-    /// given tip speed, m/s.
+    /// Coefficients of the distribution.
     ///
-    /// The wake's skew is chi = atan(edgewise/|through|): a wake that leaves upwards is skewed like one
-    /// that leaves downwards. Written with h = sqrt(edgewise^2 + through^2), sin chi = edgewise/h and
-    /// tan(chi/2) = edgewise/(h + |through|), nothing divides by zero but in still air, where all are 0.
-    /// Drees' terms in mu alone are held beyond `LARGEST_FLOW`.
+    /// The wake's skew angle is chi = atan(edgewise/|through|): a wake that leaves upwards is skewed
+    /// like one that leaves downwards. With h = sqrt(edgewise^2 + through^2) the formulae need only
+    /// sin chi = edgewise/h and tan(chi/2) = edgewise/(h + |through|). These divide by zero in still
+    /// air alone, where all coefficients are 0.
+    ///
+    /// * `edgewise`: flow along the disc, >= 0, m/s
+    /// * `through`: flow through the disc with the induced velocity, any sign, m/s
+    /// * `tip_speed`: >= 0, m/s
     pub fn coefficients<S: Scalar>(self, edgewise: S, through: S, tip_speed: S) -> Coefficients<S> {
         let Some(Wake { along, down, flow }) = Wake::new(edgewise, through) else {
             let (kx, ky) = (S::zero(), S::zero());
@@ -99,19 +108,19 @@ impl Skew {
             // (1 - cos chi)/sin chi = tan(chi/2), and mu/sin chi = h/tip speed.
             Self::Drees => {
                 let flow = edgewise.hypot(through);
-                let (mu, total) = if (tip_speed * LARGEST_FLOW).value() > flow.value() {
+                let (mu, total) = if (C(MAX_FLOW) * tip_speed).value() > flow.value() {
                     (edgewise / tip_speed, flow / tip_speed)
                 } else {
-                    (sin * LARGEST_FLOW, S::constant(LARGEST_FLOW))
+                    (C(MAX_FLOW) * sin, S::constant(MAX_FLOW))
                 };
-                ky = mu * -2.0;
-                (half_tangent - mu * 1.8 * total) * (4.0 / 3.0)
+                ky = C(-2.0) * mu;
+                C(4.0 / 3.0) * (half_tangent - C(1.8) * mu * total)
             }
-            Self::Payne => along * (4.0 / 3.0) / (down * 1.2 + along),
-            Self::WhiteBlake => sin * SQRT_2,
-            Self::PittPeters => half_tangent * (15.0 * PI / 32.0),
+            Self::Payne => C(4.0 / 3.0) * along / (C(1.2) * down + along),
+            Self::WhiteBlake => C(SQRT_2) * sin,
+            Self::PittPeters => C(15.0 * PI / 32.0) * half_tangent,
             Self::Howlett => sin * sin,
-            Self::GlauertHighSpeed => sin * 1.2,
+            Self::GlauertHighSpeed => C(1.2) * sin,
         };
         Coefficients { kx, ky }
     }

@@ -1,11 +1,12 @@
-//! The generalised dynamic wake: Peters, Boyd & He 1989 (J. Am. Helicopter Soc. 34(4), p. 5), He 1989
-//! (thesis, Georgia Tech) and Peters & He 1991 (J. Am. Helicopter Soc. 36(3), p. 59). Equations are
-//! numbered as in the text that is free to all, Moriarty & Hansen 2005, NREL/TP-500-36881.
+//! The generalised dynamic wake: Peters, Boyd & He 1989 (J. Am. Helicopter Soc. 34(4), p. 5), He
+//! 1989 (thesis, Georgia Tech) and Peters & He 1991 (J. Am. Helicopter Soc. 36(3), p. 59). Equations
+//! are numbered as in the freely available Moriarty & Hansen 2005, NREL/TP-500-36881.
 //!
-//! The induced velocity (60), down, x = r/R, psi from downwind,
+//! The induced velocity (60), positive down, with x = r/R and psi from downwind,
 //!
 //! ```text
-//! v(x, psi) = sum over m, j of phi_j^m(x) (alpha_j^m cos m psi + beta_j^m sin m psi),   j = m+1, m+3, ...
+//! v(x, psi) = sum over m, j of phi_j^m(x) (alpha_j^m cos m psi + beta_j^m sin m psi),
+//! j = m+1, m+3, ...
 //! ```
 //!
 //! follows the loading tau by (68) to (73)
@@ -14,54 +15,67 @@
 //! R K dalpha/dt + V Lc^-1 alpha = tau_c/2      R K dbeta/dt + V Ls^-1 beta = tau_s/2
 //! ```
 //!
-//! which is the usual form times (Omega R)^2, so that a rotor at rest is no special case. The functions
-//! phi = P/nu, nu = sqrt(1 - x^2), P the normalised Legendre functions, are orthogonal with the weight x nu.
+//! This is the usual form times (Omega R)^2, so that a rotor at standstill is no special case. The
+//! functions are phi = P/nu, nu = sqrt(1 - x^2), with the normalised Legendre functions P. They are
+//! orthogonal with the weight x nu.
 //!
-//! L follows from the steady linear equations in a few lines. The Fourier transform over the plane of
-//! the disc of V dw/ds = -grad p/rho is
+//! L follows from the steady linear equations in a few lines. The Fourier transform over the plane
+//! of the disc of V dw/ds = -grad p/rho is
 //!
 //! ```text
 //! v(k) = p(k)/(2 rho V) / (cos chi + i sin chi cos phi),   k in the direction phi from downwind
 //! 1/(cos chi + i sin chi cos phi) = 1 + 2 sum over n > 0 of (-i X)^n cos n phi,   X = tan(chi/2)
 //! ```
 //!
-//! so that harmonic m of the pressure makes harmonic r of the velocity by X^|m-r| +- X^(m+r), with
-//! Gamma (79) to (81) the integral over k of the product of the Hankel transforms. Its factor
-//! i^r (-i)^m (-i)^|m-r| is 1 for r >= m and (-1)^(r+m) for r < m: between harmonics of unlike parity
-//! Gamma is antisymmetric, Pitt & Peters' 15 pi/64 among them.
+//! so that harmonic m of the pressure makes harmonic r of the velocity by X^|m-r| +- X^(m+r). Gamma
+//! (79) to (81) is the integral over k of the product of the Hankel transforms. Its factor
+//! i^r (-i)^m (-i)^|m-r| is 1 for r >= m and (-1)^(r+m) for r < m. Hence Gamma is antisymmetric
+//! between harmonics of unlike parity, Pitt & Peters' 15 pi/64 among them.
 //!
-//! The order of V and L^-1 is that of Peters & HaQuang 1988. Of the pressures only the first carries
-//! thrust, and V divides the pressures: so the whole thrust is 2 rho A VT v with VT of the mean
-//! velocity v, in a steady state with functions enough. With few of them the mean is too large at the
-//! same VT: uniformly loaded by 12.5 % with one function of the mean (order 1), 5.0 % with two (2, 3),
-//! 2.7 % with three (4, 5), 1.7 % with four (6); loaded like nu by 12.5, 1.6, 0.5 and 0.2 %.
+//! The order of V and L^-1 is that of Peters & HaQuang 1988. Only the first pressure carries thrust,
+//! and V divides the pressures. So the whole thrust is 2 rho A VT v, with VT of the mean velocity v,
+//! in a steady state with enough functions. With few functions the mean is too large at the same VT.
+//! Under a uniform loading it is too large by 12.5 % with one function of the mean (order 1), 5.0 %
+//! with two (orders 2, 3), 2.7 % with three (4, 5) and 1.7 % with four (6); under a loading like nu by
+//! 12.5, 1.6, 0.5 and 0.2 %.
 //!
-//! The power p v that the disc puts into its wake is never negative: with L scaled so that its parts of
-//! like parity are symmetric, L + L^T has no negative eigenvalue, and none that is zero for X < 1. So L
-//! has an inverse and all modes decay. In edgewise flow, X = 1, some are zero, yet L still has an inverse by its odd parts: the condition number of Lc
-//! grows from 1.2 ... 3.3 at X = 0 to 3.3, 9.6, 13, 27, 29, 47 for orders 1 ... 6. X needs no limit.
+//! The power p v that the disc puts into its wake is never negative: with L scaled so that its parts
+//! of like parity are symmetric, L + L^T has no negative eigenvalue, and no zero eigenvalue for
+//! X < 1. So L has an inverse and all modes decay. In edgewise flow, X = 1, some eigenvalues of
+//! L + L^T are zero, but the odd parts of L give it an inverse there too: from X = 0 to 1 the
+//! condition number of Lc grows from 1.2 ... 3.3 to 3.3, 9.6, 13, 27, 29, 47 for orders 1 ... 6. X
+//! needs no limit.
 
 use super::{descent::MassFlow, dynamic::Stream};
-use crate::{induced::Field, scalar::Scalar};
+use crate::{
+    induced::Field,
+    scalar::{C, Scalar},
+};
 use core::f64::consts::PI;
 
+/// Maximum power of the radius.
 pub const MAX_ORDER: usize = 6;
+/// Maximum harmonic of the azimuth.
 pub const MAX_HARMONICS: usize = 4;
+/// Number of states at the maximum order.
 pub const MAX_STATES: usize = 24;
+/// Number of cosines among them.
 const MAX_COSINES: usize = 14;
 
 type Matrix<S = f64> = [[S; MAX_COSINES]; MAX_COSINES];
 
-/// cos(m psi) and sin(m psi), m from 0.
+/// cos(m psi) and sin(m psi), m from 0 to `MAX_HARMONICS`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Harmonics<S = f64> {
+    /// cos(m psi).
     pub cos: [S; MAX_HARMONICS + 1],
+    /// sin(m psi).
     pub sin: [S; MAX_HARMONICS + 1],
 }
 
 /// The wake of a rotor up to a power of the radius.
 ///
-/// Its states, m/s, are first the alpha and then the beta, each by m and then by j; the first is
+/// Its states, m/s, are first the alpha and then the beta, each by m and then by j. The first is
 /// alpha_1^0, a uniform velocity of sqrt(3) times its value.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Wake {
@@ -70,7 +84,7 @@ pub struct Wake {
     indices: Vec<(usize, usize)>,
     /// Number of the cosines with m = 0, which have no sines.
     axial: usize,
-    /// phi at the blade elements, all functions of one element beside each other.
+    /// phi at the blade elements, with all functions of an element side by side.
     radial: Vec<f64>,
     /// K of the cosines.
     mass: [f64; MAX_COSINES],
@@ -80,7 +94,7 @@ pub struct Wake {
     coupling: Matrix,
 }
 
-/// What bounds the eigenvalues of the equations by order.
+/// Bounds of the eigenvalues of the equations, for one order.
 struct Bounds {
     /// Largest 2-norm of K^-1/2 L^-1 K^-1/2 at all X, L scaled as in the head.
     wake: f64,
@@ -93,8 +107,8 @@ struct Bounds {
     edgewise_trace: f64,
 }
 
-/// Computed as it says at `Bounds` with all harmonics, rounded up. With fewer the first is up to 3 % more, for which
-/// the margin of the steps in time has room.
+/// Computed as `Bounds` says, with all harmonics, and rounded up. With fewer harmonics `wake` is up to
+/// 3 % larger, which the margin of the steps in time covers.
 const BOUNDS: [Bounds; MAX_ORDER] = [
     bounds([5.07, 1.11, 1.48, 2.80, 4.13]),
     bounds([11.32, 1.90, 3.70, 7.83, 11.60]),
@@ -123,16 +137,19 @@ struct Flow<S> {
 }
 
 impl Wake {
-    /// `order`: highest power of the radius, 1 to 6 (others are taken as the nearest). The harmonics go
-    /// to the fourth, and make 3, 6, 10, 15, 19, 24 states. `radius_ratios`: r/R of the middles of the
-    /// blade elements.
+    /// With all harmonics up to the fourth: 3, 6, 10, 15, 19, 24 states for orders 1 to 6.
+    ///
+    /// * `order`: highest power of the radius, 1 to 6; others are taken as the nearest
+    /// * `radius_ratios`: r/R of the middles of the blade elements, above 0 and below 1
     pub fn new(order: usize, radius_ratios: &[f64]) -> Self {
         Self::with_harmonics(order, MAX_HARMONICS, radius_ratios)
     }
 
-    /// The same with fewer harmonics than blades. Blades that turn carry a load that turns with them, of which
-    /// the harmonic N, 2 N ... remains in the sum of N blades even in hover: there the blades would sit
-    /// in a wave of downwash of their own. That is the wake between the blades, which tip losses stand for.
+    /// With fewer harmonics than the rotor has blades, at least the mean.
+    ///
+    /// Blades carry a load that turns with them, and its harmonics N, 2 N ... remain in the sum over N
+    /// blades even in hover. There the blades would sit in a wave of downwash of their own. That is
+    /// the wake between the blades, which tip losses stand for.
     pub fn of_blades(order: usize, blades: usize, radius_ratios: &[f64]) -> Self {
         Self::with_harmonics(order, blades.saturating_sub(1), radius_ratios)
     }
@@ -190,12 +207,13 @@ impl Wake {
         2 * self.indices.len() - self.axial
     }
 
+    /// Never: the smallest wake has one state.
     pub fn is_empty(&self) -> bool {
         false
     }
 
-    /// Of the azimuth with these cosine and sine. Both zero is an azimuth without a direction, of which
-    /// m = 0 is left.
+    /// Harmonics of the azimuth with the cosine `cos` and the sine `sin`. With both zero, which stands
+    /// for an azimuth without a direction, only m = 0 is left.
     pub fn harmonics<S: Scalar>(cos: S, sin: S) -> Harmonics<S> {
         let mut all = Harmonics {
             cos: [S::one(); MAX_HARMONICS + 1],
@@ -208,7 +226,10 @@ impl Wake {
         all
     }
 
-    /// The velocity induced at a blade element, down, m/s.
+    /// The velocity induced at a blade element, positive down, m/s.
+    ///
+    /// * `states`: `len()` or more, m/s
+    /// * `element`: index into the radius ratios
     pub fn velocity<S: Scalar>(&self, states: &[S], element: usize, harmonics: &Harmonics<S>) -> S {
         let (axial, radial) = self.radial_at(element).split_at(self.axial);
         let (means, others) = states.split_at(self.axial);
@@ -224,8 +245,10 @@ impl Wake {
         velocity
     }
 
-    /// Adds a blade element at an azimuth to the loading tau, m2/s2. `force`: its thrust over rho R^2,
-    /// or the mean share of it where blades are averaged over the turn; (92) to (94).
+    /// Adds the load of a blade element at an azimuth to the loading tau, m2/s2; (92) to (94).
+    ///
+    /// * `force`: thrust of the element over rho R^2, m2/s2; where the loads are averaged over the
+    ///   azimuth, its share of the mean
     pub fn add_load<S: Scalar>(
         &self,
         loading: &mut [S],
@@ -238,7 +261,7 @@ impl Wake {
         let (cosines, sines) = others.split_at_mut(radial.len());
         let force = force / PI;
         for (tau, phi) in means.iter_mut().zip(axial) {
-            *tau += force * 0.5 * *phi;
+            *tau += C(0.5) * force * *phi;
         }
         let indices = &self.indices[self.axial..];
         for (((phi, cosine), sine), (m, _)) in radial.iter().zip(cosines).zip(sines).zip(indices) {
@@ -247,7 +270,8 @@ impl Wake {
         }
     }
 
-    /// Rates of the states, m/s2, under a loading tau, m2/s2.
+    /// Rates of change of the states, m/s2, under a loading tau, m2/s2. Each slice has `len()` entries
+    /// or more.
     pub fn rate<S: Scalar>(
         &self,
         states: &[S],
@@ -274,12 +298,13 @@ impl Wake {
             .chain(&self.mass[self.axial..cosines]);
         for (i, (rate, mass)) in rates.iter_mut().zip(masses).enumerate() {
             let speed = if i == 0 { flow.total } else { flow.changes }; // (84), (85)
-            *rate = (loading[i] * 0.5 - speed * pressures[i]) / (*mass * stream.radius);
+            *rate = (C(0.5) * loading[i] - speed * pressures[i]) / (*mass * stream.radius);
         }
     }
 
-    /// The same field (or loading) in axes that are turned by an angle about the shaft, psi' = psi -
-    /// angle, in the sense of `WindAxes::into_wind`; -sin turns back.
+    /// The same field or loading in axes turned by an angle about the shaft, psi' = psi - angle, in
+    /// the sense of `WindAxes::into_wind`. The cosine and sine are those of the angle; -sin
+    /// turns back.
     pub fn rotated<S: Scalar>(&self, states: &[S], cos: S, sin: S) -> [S; MAX_STATES] {
         let turn = Self::harmonics(cos, sin);
         let cosines = self.indices.len();
@@ -293,10 +318,13 @@ impl Wake {
         turned
     }
 
-    /// A bound of how fast the modes move, 1/s, for steps in time. To what the wake carries away comes
-    /// the damping by the blades with a lift slope of 2 pi: `solidity` N c/(pi R), `tip_speed` m/s.
-    /// `is_blades`: where they act one by one, for any number of them at any azimuth, rather than averaged
-    /// over the turn.
+    /// A bound on the rates of the modes, 1/s, for steps in time: what the wake carries away, and the
+    /// damping by blades with a lift slope of 2 pi.
+    ///
+    /// * `solidity`: N c/(pi R)
+    /// * `tip_speed`: >= 0, m/s
+    /// * `is_blades`: whether the blades act one by one, in any number and at any azimuth; else their
+    ///   loads are averaged over the azimuth
     pub fn fastest_rate(
         &self,
         states: &[f64],
@@ -313,7 +341,7 @@ impl Wake {
         };
         let blades = solidity * (turning * tip_speed + edgewise * stream.edgewise);
         let flow = self.flow(states, stream);
-        // V changes with the states as well, which counts where it nearly vanishes.
+        // V changes with the states as well, which matters where V nearly vanishes.
         let carried = flow.total.max(flow.changes) + 2.0 * self.mean(states).abs();
         (bounds.wake * carried + 2.0 * PI * blades) / stream.radius
     }
@@ -330,13 +358,13 @@ impl Wake {
         axial.zip(states).map(|(phi, state)| *state * *phi).sum()
     }
 
-    /// Whether all azimuths are alike but for `none` m/s in each state.
-    pub fn is_axisymmetric<S: Scalar>(&self, states: &[S], none: f64) -> bool {
+    /// Whether all azimuths are alike: each state of a harmonic m > 0 is at most `limit`, m/s.
+    pub fn is_axisymmetric<S: Scalar>(&self, states: &[S], limit: f64) -> bool {
         let others = states.iter().take(self.len()).skip(self.axial);
-        others.into_iter().all(|state| state.is_negligible(none))
+        others.into_iter().all(|state| state.is_negligible(limit))
     }
 
-    /// The states of a field that looks like a linear one: the same mean, and the first functions for its
+    /// The states of a field close to a linear one: the same mean, and the first functions for its
     /// slopes.
     pub fn like(&self, field: &Field) -> [f64; MAX_STATES] {
         let mut states = [0.0; MAX_STATES];
@@ -383,7 +411,7 @@ impl Wake {
                 };
                 *factor = match r {
                     0 => powers[m],
-                    _ => powers[m.abs_diff(r)] + powers[m + r] * sign,
+                    _ => powers[m.abs_diff(r)] + C(sign) * powers[m + r],
                 };
             }
         }
@@ -423,14 +451,14 @@ fn phi_coefficients(m: usize, j: usize) -> impl Iterator<Item = f64> {
     })
 }
 
-/// Gamma_jn^rm; (79) to (81). The text prints (j + n)^2 - 1 in (79) where it must be (j - n)^2 - 1:
+/// Gamma_jn^rm; (79) to (81). The text prints (j + n)^2 - 1 in (79), but it must be (j - n)^2 - 1:
 /// for r = m Gamma is the integral of phi_j phi_n (1 - x^2) x dx.
 fn gamma(r: usize, m: usize, j: usize, n: usize) -> f64 {
     let scale = 1.0 / libm::sqrt(h(m, n) * h(r, j));
     let degrees = libm::sqrt(((2 * n + 1) * (2 * j + 1)) as f64);
     if (r + m).is_multiple_of(2) {
         let difference = j.abs_diff(n) as f64;
-        // n + j > 2 r need not hold, but n + j + 2 r has the same sign of the power.
+        // The text's n + j - 2 r can be negative; n + j + 2 r gives the power the same sign.
         let sign = if (n + j + 2 * r).is_multiple_of(4) {
             1.0
         } else {
@@ -460,7 +488,7 @@ fn solve<S: Scalar>(matrix: &mut Matrix<S>, right: &mut [S]) {
         matrix.swap(i, pivot);
         right.swap(i, pivot);
         let row = matrix[i];
-        let inverse = S::one() / row[i];
+        let inverse = C(1.0) / row[i];
         for k in i + 1..size {
             let factor = matrix[k][i] * inverse;
             if factor.is_negligible(0.0) {

@@ -1,47 +1,52 @@
 //! Glauert's momentum theory for the disc as a whole (Glauert 1926, ARC R&M 1111; thesis eq. 100):
-//! the thrust is the flux of momentum through a disc that is passed by the resultant flow,
+//! the thrust is the flux of momentum through the disc,
 //!
 //! ```text
-//! T = 2 rho A v0 V',   V' = sqrt(V_x^2 + (V_c + v0)^2) or what `descent` has for it,
+//! T = 2 rho A v0 V',   V' = sqrt(V_x^2 + (V_c + v0)^2), or what the descent model puts in its place,
 //! ```
 //!
-//! and T is the thrust of the blades in that inflow: one bracketed unknown, the mean induced
-//! velocity v0. Multiplied out, nothing divides by the inflow, so that hover, edgewise flight and
+//! and T is also the thrust of the blades in that inflow. So there is one bracketed unknown, the
+//! mean induced velocity v0. In this form nothing divides by the inflow: hover, edgewise flight and
 //! a disc at rest are no special cases.
 //!
-//! Descent. Where the thrust points against the flow through the disc momentum theory has up to three roots.
-//! As in the annulus, the windmill (air passing upwards) is taken where it exists, that is where
-//! the sides change their order before v0 = -V_c/2; else the root beyond.
+//! Descent. Where the thrust points against the flow through the disc, momentum theory has up to
+//! three roots. As in the annulus, the windmill state (air passes upwards) is taken where it exists,
+//! that is, where the sides change their order before v0 = -V_c/2; else the root beyond.
 
 use crate::{
     root::{End, RootError, bracketed},
-    scalar::Scalar,
+    scalar::{C, Scalar},
 };
 
-/// To which the induced velocity is found, as a part of the largest speed in the problem.
+/// Tolerance of the induced velocity, as a part of the largest speed in the problem.
 const TOLERANCE: f64 = 1e-13;
 
-/// Doublings of the bracket after which there is no root within reach of a finite speed.
-const LARGEST_GROWTH: u32 = 60;
+/// Bound on the doublings of the bracket; no finite speed needs more.
+const MAX_DOUBLINGS: u32 = 60;
 
-/// The mean induced velocity v0, m/s.
+/// The mean induced velocity v0, positive down, m/s.
 ///
-/// * `mass_flow`: speed V' of the air through the disc that takes up momentum at an induced velocity, m/s
-/// * `climb`: flow down through the disc, m/s
+/// * `mass_flow`: the speed V' of the air that takes up momentum, as a function of v0, m/s
+/// * `climb`: flow down through the disc without v0, any sign, m/s
 /// * `scale`: a speed > 0 of the order of the largest in the problem, m/s
-/// * `thrust_per_density_area`: thrust of the blades over rho A in the inflow v0, m2/s2
+/// * `thrust_per_density_area`: T/(rho A) of the blades as a function of v0, m2/s2
+///
+/// # Errors
+///
+/// Where one of the functions is not finite, or where the two sides do not balance at any v0 within
+/// reach of finite speeds.
 pub fn mean_velocity<S: Scalar>(
     mass_flow: impl Fn(S) -> S,
     climb: S,
     scale: f64,
     thrust_per_density_area: impl Fn(S) -> S,
 ) -> Result<S, RootError> {
-    let equation = |v: S| v * 2.0 * mass_flow(v) - thrust_per_density_area(v);
+    let equation = |v: S| C(2.0) * v * mass_flow(v) - thrust_per_density_area(v);
     let found = root(|v| equation(S::constant(v)).value(), climb.value(), scale)?;
     Ok(S::at_root(found, equation))
 }
 
-/// The root of the equation that belongs to a climb, both in m/s.
+/// The v0 that solves `equation` at a climb, both in m/s.
 fn root(equation: impl Fn(f64) -> f64, climb: f64, scale: f64) -> Result<f64, RootError> {
     let end = |at: f64| End {
         at,
@@ -61,7 +66,7 @@ fn root(equation: impl Fn(f64) -> f64, climb: f64, scale: f64) -> Result<f64, Ro
         from = windmill;
     }
     let mut step = 0.1 * side * scale;
-    for _ in 0..LARGEST_GROWTH {
+    for _ in 0..MAX_DOUBLINGS {
         let to = end(from.at + step);
         if !to.residual.is_finite() {
             return Err(RootError::NotFinite);

@@ -1,11 +1,12 @@
-//! Johnson's model of the mean inflow in the vortex ring state: Johnson 2005, "Model for Vortex Ring State
-//! Influence on Rotorcraft Flight Dynamics", NASA/TP-2005-213477, pp. 14, 23 and 24.
+//! Johnson's model of the mean inflow in the vortex ring state: Johnson 2005, "Model for Vortex Ring
+//! State Influence on Rotorcraft Flight Dynamics", NASA/TP-2005-213477, pp. 14, 23 and 24.
 //!
-//! In units of v_h, with V_z the climb and V_x the flow along the disc. The baseline is momentum theory with
-//! its two branches joined by a cubic between the points A and B (v = b V_z + c V_z^2 + d V_z^3: v and slope
-//! at A, v at B). To V_z + v comes a piecewise cubic, from nothing at D to given values at N and X,
-//! where V_z + v has no slope, the boundaries of instability in climb, and back to nothing at E. The points move
-//! with V_x and meet at V_xM, beyond which there is no vortex ring.
+//! In units of v_h, with V_z the climb and V_x the flow along the disc. The baseline is momentum
+//! theory with its two branches joined by a cubic between the points A and B
+//! (v = b V_z + c V_z^2 + d V_z^3: v and slope at A, v at B). A piecewise cubic is added to V_z + v.
+//! It begins with 0 at D, goes through given values at N and X, and ends with 0 at E. N and X are the
+//! boundaries of instability in climb; there V_z + v has no slope. The points move with V_x and meet
+//! at V_xM; beyond it there is no vortex ring.
 //!
 //! Ours: the slopes at N and X fade with V_x as the values do, so that nothing jumps at V_xM.
 //!
@@ -14,54 +15,71 @@
 
 use crate::{
     root::{End, RootError, bracketed},
-    scalar::Scalar,
+    scalar::{C, Scalar},
 };
 
-/// Baseline, p. 24.
+// Baseline, p. 24.
+
+/// V_z at which momentum theory's upper branch ends.
 const A: f64 = -1.5;
+/// V_z at which momentum theory's lower branch begins.
 const B: f64 = -2.1;
+/// V_x at which A and B meet.
 const V_XC: f64 = 0.75;
-/// Vortex ring, p. 24.
+
+// Vortex ring, p. 24.
+
+/// V_z at which the vortex ring begins.
 const D: f64 = -0.2;
+/// V_z of the upper boundary of instability, and V_z + v there.
 const N: f64 = -0.45;
 const THROUGH_N: f64 = 0.85;
+/// V_z of the lower boundary of instability, and V_z + v there.
 const X: f64 = -1.5;
 const THROUGH_X: f64 = 1.25;
+/// V_z at which the vortex ring ends.
 const E: f64 = -2.0;
+/// V_x at which the boundaries of instability meet.
 const V_XM: f64 = 0.95;
 
-/// Bound on Newton's steps, of which it takes about six; then a bracket takes over.
-const NEWTON_STEPS: u32 = 30;
+/// Bound on Newton's steps; about six are usual. Beyond the bound a bracket takes over.
+const MAX_NEWTON_STEPS: u32 = 30;
 
-/// The boundary of instability at a V_x, all V_z in units of v_h.
+/// The boundary of instability at one V_x, in units of v_h.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Boundary<S = f64> {
+    /// V_z of its upper side, < 0.
     pub upper: S,
+    /// V_z of its lower side, at or below `upper`.
     pub lower: S,
-    /// Where the model has gone over to the windmill.
+    /// V_z below which the model is the windmill of momentum theory.
     pub end: S,
 }
 
 impl<S: Scalar> Boundary<S> {
-    /// None beyond V_xM.
+    /// The boundary at V_x = `edgewise` (>= 0, in units of v_h); none from V_xM on.
     pub fn at(edgewise: S) -> Option<Self> {
         if edgewise.value().is_nan() || edgewise.value() >= V_XM {
             return None;
         }
         let share = edgewise / V_XM;
-        let part = S::one() - share * share;
+        let part = C(1.0) - share * share;
         let (middle, half) = (0.5 * (N + X), 0.5 * (N - X));
-        let upper = part.power(0.2) * half + middle;
-        let lower = S::constant(middle) - part.power(1.5) * half;
+        let upper = C(middle) + C(half) * part.power(0.2);
+        let lower = C(middle) - C(half) * part.power(1.5);
         Some(Self {
             upper,
             lower,
-            end: (lower - X) + E,
+            end: C(E) + (lower - X),
         })
     }
 }
 
-/// V' at V_x (>= 0), V_c (<= 0) and v (>= 0), m/s: v_h^2/v, v_h such that the model gives v.
+/// V' = v_h^2/v, m/s, with the v_h at which the model gives v.
+///
+/// * `edgewise`: V_x, >= 0, m/s
+/// * `climb`: V_c, <= 0, m/s
+/// * `induced`: v, >= 0, m/s
 pub fn speed<S: Scalar>(edgewise: S, climb: S, induced: S) -> S {
     if induced.value() == 0.0 {
         return edgewise.hypot(climb);
@@ -76,18 +94,19 @@ pub fn speed<S: Scalar>(edgewise: S, climb: S, induced: S) -> S {
             let hover = S::at_root(hover, surplus);
             hover * hover / induced
         }
-        // Not seen; the rotor's solution then fails with an error.
+        // Never seen. The solution of the inflow then fails with an error.
         Err(_) => S::constant(f64::NAN),
     }
 }
 
-/// The v_h at which nothing is left of `surplus`; `flow` and `induced`, m/s.
+/// The v_h at which `surplus` is 0; `flow` and `induced`, m/s.
 fn hover_velocity(surplus: impl Fn(f64) -> f64, flow: f64, induced: f64) -> Result<f64, RootError> {
     let end = |at: f64| End {
         at,
         residual: surplus(at),
     };
-    // Fast flow past a hardly loaded rotor induces little; a loaded one in slow flow induces its v_h.
+    // A lightly loaded rotor in fast flow induces much less than its v_h, v = v_h^2/V; a loaded one
+    // in slow flow induces about its v_h. The bracket grows from there.
     let scale = flow + induced;
     let (mut low, mut high) = (end(1e-3 * libm::sqrt(induced * scale)), end(induced));
     for _ in 0..60 {
@@ -105,7 +124,7 @@ fn hover_velocity(surplus: impl Fn(f64) -> f64, flow: f64, induced: f64) -> Resu
     bracketed(surplus, low, high, 1e-13 * scale)
 }
 
-/// v in units of v_h.
+/// v at V_x and V_z, all in units of v_h.
 fn ratio<S: Scalar>(edgewise: S, climb: S) -> S {
     if climb.value() >= 0.0 {
         return helicopter(edgewise, climb);
@@ -119,12 +138,12 @@ fn ratio<S: Scalar>(edgewise: S, climb: S) -> S {
         return base;
     }
     let share = edgewise / V_XM;
-    let fade = (S::one() - share.power(6.0)).sqrt();
+    let fade = (C(1.0) - share.power(6.0)).sqrt();
     let at = |v_z: S, through: f64, own: f64| Knot {
         at: v_z,
         value: fade * (through - (own + helicopter(0.0, own))),
         // The boundary lies above A, where the baseline is momentum theory.
-        slope: -fade * (helicopter_slope(edgewise, v_z) + 1.0),
+        slope: -fade * (C(1.0) + helicopter_slope(edgewise, v_z)),
     };
     let n = at(upper, THROUGH_N, N);
     let x = at(lower, THROUGH_X, X);
@@ -149,11 +168,11 @@ fn baseline<S: Scalar>(edgewise: S, climb: S) -> S {
         return helicopter(edgewise, climb);
     }
     let part = edgewise / V_XC;
-    let a = part * 0.2 * part + A;
-    let mut b = part * 0.2 * part + B;
+    let a = C(A) + C(0.2) * part * part;
+    let mut b = C(B) + C(0.2) * part * part;
     if part.value() > 0.5 {
-        let beyond = part * 2.0 - 1.0;
-        b += (a - b) * 0.7 * beyond * beyond * beyond;
+        let beyond = C(2.0) * part - 1.0;
+        b += C(0.7) * (a - b) * beyond * beyond * beyond;
     }
     if climb.value() > a.value() {
         helicopter(edgewise, climb)
@@ -169,15 +188,15 @@ fn baseline<S: Scalar>(edgewise: S, climb: S) -> S {
     }
 }
 
-/// The root of v sqrt(V_x^2 + (V_z + v)^2) = 1 that continues hover, the largest: by Newton's method from
-/// above, where the left side rises ever faster.
+/// The largest root of v sqrt(V_x^2 + (V_z + v)^2) = 1, which continues hover. Newton's method finds
+/// it from above, where the left side is convex.
 fn helicopter<S: Scalar>(edgewise: S, climb: S) -> S {
     if edgewise.value() == 0.0 {
-        return climb * -0.5 + (climb * 0.25 * climb + 1.0).sqrt();
+        return C(-0.5) * climb + (C(1.0) + C(0.25) * climb * climb).sqrt();
     }
     let (v_x, v_z) = (edgewise.value(), climb.value());
     let mut v = 1.0 + v_z.abs();
-    for _ in 0..NEWTON_STEPS {
+    for _ in 0..MAX_NEWTON_STEPS {
         let through = v_z + v;
         let flow = libm::sqrt(v_x * v_x + through * through);
         let step = (v * flow - 1.0) / (flow + v * through / flow);
@@ -189,14 +208,14 @@ fn helicopter<S: Scalar>(edgewise: S, climb: S) -> S {
     momentum(edgewise, climb, 0.0_f64.max(-v_z), 1.0 + v_z.abs())
 }
 
-/// dv/dV_z of that root.
+/// dv/dV_z of `helicopter`.
 fn helicopter_slope<S: Scalar>(edgewise: S, climb: S) -> S {
     let v = helicopter(edgewise, climb);
     let through = climb + v;
     -v * through / (edgewise * edgewise + through * through + v * through)
 }
 
-/// The root that continues fast descent; that of hover where there is none.
+/// The root that continues fast descent. Where it does not exist, the root that continues hover.
 fn windmill<S: Scalar>(edgewise: S, climb: S) -> S {
     let middle = -0.5 * climb.value();
     if middle * libm::hypot(edgewise.value(), middle) < 1.0 {
@@ -210,7 +229,7 @@ fn momentum_surplus<S: Scalar>(edgewise: S, climb: S, v: S) -> S {
     v * edgewise.hypot(climb + v) - 1.0
 }
 
-/// A root between two velocities. Where the one that continues hover lies below the first, from 0.
+/// The root between two velocities. The bracket begins at 0 where the root lies below `from`.
 fn momentum<S: Scalar>(edgewise: S, climb: S, from: f64, to: f64) -> S {
     let surplus = |v: f64| momentum_surplus(edgewise.value(), climb.value(), v);
     let end = |at: f64| End {
@@ -225,28 +244,30 @@ fn momentum<S: Scalar>(edgewise: S, climb: S, from: f64, to: f64) -> S {
     S::at_root(found, |v| momentum_surplus(edgewise, climb, v))
 }
 
+/// A point of a cubic.
 struct Knot<S> {
+    /// V_z.
     at: S,
     value: S,
     slope: S,
 }
 
-/// The cubic with the values and slopes of two knots, a below b.
+/// Hermite's cubic through two knots, a below b, with their slopes.
 fn hermite<S: Scalar>(a: &Knot<S>, b: &Knot<S>, at: S) -> S {
     let width = b.at - a.at;
     if width.value() <= 0.0 {
         return a.value;
     }
     let t = (at - a.at) / width;
-    let (s, u) = (t * t, S::one() - t);
-    a.value * (t * 2.0 + 1.0) * u * u
-        + b.value * s * (S::constant(3.0) - t * 2.0)
+    let (s, u) = (t * t, C(1.0) - t);
+    a.value * (C(1.0) + C(2.0) * t) * u * u
+        + b.value * s * (C(3.0) - C(2.0) * t)
         + width * (a.slope * t * u * u - b.slope * s * u)
 }
 
-/// The cubic b z + c z^2 + d z^3 with the value and slope of a knot and a value elsewhere.
+/// The cubic b z + c z^2 + d z^3 through a knot with its slope, and with a value at `other`.
 fn through_origin<S: Scalar>(knot: &Knot<S>, other: S, value: S, at: S) -> S {
-    // p(z)/z is a parabola: known at two places, with its slope at the first.
+    // p(z)/z is a parabola, known at two places and with its slope at the first.
     let (first, second) = (knot.value / knot.at, value / other);
     let rise = (knot.slope - first) / knot.at;
     let width = other - knot.at;
@@ -269,7 +290,7 @@ mod tests {
             let slope = (at(v_z + 1e-4) - at(v_z - 1e-4)) / 2e-4;
             assert!(slope.abs() < 2e-3, "{v_z}: {slope}");
         }
-        // Between them the air passes the faster the faster the descent: unstable.
+        // Between them faster descent lets more air through the disc: unstable.
         assert!(ratio(0.0, -1.0) - 1.0 > ratio(0.0, -0.9) - 0.9);
         let boundary = Boundary::at(0.0).unwrap();
         assert!((boundary.upper - N).abs() < 1e-12);

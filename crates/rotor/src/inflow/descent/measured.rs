@@ -1,15 +1,16 @@
-//! The mass flow in descent as Castles & Gray measured it: 1951, NACA TN 2474, Table I (rotors of 6 ft,
-//! vertical descent to V_d/v_h = 2.46).
+//! The mass flow in descent as Castles & Gray measured it: 1951, NACA TN 2474, Table I (rotors of
+//! 6 ft, vertical descent to V_d/v_h = 2.46).
 //!
-//! g(k) = (v_h/v)^2 at k = V_c/v, a piecewise cubic through the knots below, with continuous slope, that is
-//! momentum theory's |1 + k| from the first knot down (V_d/v_h = 3.6) and in climb. The values are a fit to
-//! all runs (provenance/descent-law/fit.py, which compares published laws, and halves of the runs with each other);
-//! between V_d/v_h = 2.46 and 3.6 nothing was measured. V_c/v_h = k/sqrt(g) grows with k everywhere.
+//! g(k) = (v_h/v)^2 at k = V_c/v is a piecewise cubic through the knots below with a continuous
+//! slope. In climb, and from the first knot down (V_d/v_h = 3.6), it is momentum theory's |1 + k|.
+//! The values are a fit to all runs; provenance/descent-law/fit.py makes it, and compares it with
+//! published laws and with fits to halves of the runs. Between V_d/v_h = 2.46 and 3.6 nothing was
+//! measured. V_c/v_h = k/sqrt(g) grows with k everywhere.
 //!
-//! Flow along the disc. Nothing is fitted to it: Glauert's resultant has v g(k) in place of V_c + v, which
-//! counts ever less the faster the flow.
+//! Flow along the disc. Nothing is fitted to it: in Glauert's resultant v g(k) takes the place of
+//! V_c + v, which counts ever less the faster the flow.
 
-use crate::scalar::Scalar;
+use crate::scalar::{C, Scalar};
 
 /// k, g, dg/dk.
 const KNOTS: [(f64, f64, f64); 10] = [
@@ -25,7 +26,7 @@ const KNOTS: [(f64, f64, f64); 10] = [
     (0.0, 1.0000, 1.0000),
 ];
 
-/// g and its slope at k <= 0.
+/// g and its slope dg/dk at k = V_c/v <= 0.
 pub fn gain<S: Scalar>(ratio: S) -> (S, S) {
     let place = ratio.value();
     if place.is_nan() || place <= KNOTS[0].0 {
@@ -37,13 +38,14 @@ pub fn gain<S: Scalar>(ratio: S) -> (S, S) {
     let ((a, value_a, slope_a), (b, value_b, slope_b)) = (KNOTS[upper - 1], KNOTS[upper]);
     let width = b - a;
     let t = (ratio - a) / width;
-    let (s, u) = (t * t, S::one() - t);
-    let value = (t * 2.0 + 1.0) * value_a * u * u
-        + s * value_b * (S::constant(3.0) - t * 2.0)
-        + (t * slope_a * u * u - s * slope_b * u) * width;
-    let slope = t * 6.0 * u * (value_b - value_a) / width
-        + u * slope_a * (S::one() - t * 3.0)
-        + t * slope_b * (t * 3.0 - 2.0);
+    let (s, u) = (t * t, C(1.0) - t);
+    // Hermite's cubic and its derivative, with s = t^2 and u = 1 - t.
+    let value = C(value_a) * (C(1.0) + C(2.0) * t) * u * u
+        + C(value_b) * s * (C(3.0) - C(2.0) * t)
+        + C(width) * (C(slope_a) * t * u * u - C(slope_b) * s * u);
+    let slope = C(6.0) * t * u * (value_b - value_a) / width
+        + C(slope_a) * u * (C(1.0) - C(3.0) * t)
+        + C(slope_b) * t * (C(3.0) * t - 2.0);
     (value, slope)
 }
 

@@ -1,89 +1,100 @@
-//! The air that passes through the disc and takes up momentum, in climb, hover, forward flight and descent.
+//! The air that passes through the disc and takes up momentum, in climb, hover, forward flight and
+//! descent.
 //!
-//! Momentum theory says that a rotor which induces v at the disc pulls with T = 2 rho A v V', V' the speed
-//! of the air that passes through it: Glauert's resultant sqrt(V_x^2 + (V_c + v)^2) (1926, ARC R&M 1111).
-//! In descent that air meets the wake on its way down, and measured rotors do otherwise. What was
-//! measured is the ratio v/v_h against V_c/v_h, v_h^2 = T/(2 rho A); with k = V_c/v it is the same to say
+//! Momentum theory says that a rotor which induces v at the disc pulls with T = 2 rho A v V', where
+//! V' is the speed of the air that passes through the disc: Glauert's resultant
+//! sqrt(V_x^2 + (V_c + v)^2) (1926, ARC R&M 1111). In descent that air meets the wake on its way
+//! down, and measured rotors depart from the theory. Measured is the ratio v/v_h against V_c/v_h,
+//! v_h^2 = T/(2 rho A). With k = V_c/v the same is
 //!
 //! ```text
 //! V' = v g(k),   g(V_c/v) = (v_h/v)^2,
 //! ```
 //!
-//! |1 + k| in momentum theory. In this form every inflow model can use it, annuli and states included: it
-//! is one function of what the model knows, with no state of its own that could chatter. As long as
-//! V_c/v_h = k/sqrt(g) grows with k, the thrust grows with v at any V_c, and the inflow is unique.
+//! and g = |1 + k| in momentum theory. In this form every inflow model can use the measurements,
+//! annuli and inflow states included: V' is a function of what the model knows, without a state of
+//! its own that could chatter. As long as V_c/v_h = k/sqrt(g) grows with k, the thrust grows with v
+//! at any V_c, and the inflow is unique.
 
 mod johnson;
 mod measured;
 
-use crate::scalar::Scalar;
+use crate::scalar::{C, Scalar};
 
-/// How descent is modelled.
+/// The model of the mass flow in descent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Descent {
-    /// Momentum theory as such.
+    /// Momentum theory, in descent too.
     Momentum,
-    /// A curve through measurements: `measured`.
+    /// A curve through the measurements of Castles & Gray 1951, NACA TN 2474.
     #[default]
     Measured,
-    /// Johnson's vortex ring model: `johnson`.
+    /// Johnson's vortex ring model: 2005, NASA/TP-2005-213477.
     Johnson,
 }
 
-/// The air through the disc.
+/// The air that takes up the momentum of the thrust.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MassFlow<S = f64> {
     /// V', m/s.
     pub speed: S,
-    /// d(v V')/dv, m/s: how the thrust changes with v (the mass flow of Peters & HaQuang 1988 for slopes).
+    /// d(v V')/dv, >= 0, m/s: how the thrust changes with v. It carries the slopes of the inflow in
+    /// Peters & HaQuang 1988 (J. Am. Helicopter Soc. 33(4), p. 64).
     pub slope: S,
 }
 
 impl Descent {
-    /// V' at a flow along the disc (>= 0), a climb and an induced velocity (positive down), m/s.
+    /// V', m/s.
     ///
-    /// A rotor that pulls down is one upside down: only the sign of V_c against v counts.
+    /// A rotor that pulls down is a rotor upside down: only the sign of V_c against v counts.
+    ///
+    /// * `edgewise`: flow along the disc V_x, >= 0, m/s
+    /// * `climb`: flow down through the disc V_c, any sign, m/s
+    /// * `induced`: v, positive down, m/s
     pub fn speed<S: Scalar>(self, edgewise: S, climb: S, induced: S) -> S {
-        if (climb * induced).value() >= 0.0 {
-            return edgewise.hypot(climb + induced);
-        }
+        let is_descent = (climb * induced).value() < 0.0;
+        let momentum = || edgewise.hypot(climb + induced);
         match self {
-            Self::Momentum => edgewise.hypot(climb + induced),
-            Self::Measured => {
+            Self::Momentum => momentum(),
+            Self::Measured if is_descent => {
                 let (gain, _) = measured::gain(climb / induced);
                 edgewise.hypot(induced * gain)
             }
-            Self::Johnson => johnson::speed(edgewise, -climb.abs(), induced.abs()),
+            Self::Johnson if is_descent => johnson::speed(edgewise, -climb.abs(), induced.abs()),
+            Self::Measured | Self::Johnson => momentum(),
         }
     }
 
+    /// V' and its slope, at the flows that [`Descent::speed`] takes.
     pub fn mass_flow<S: Scalar>(self, edgewise: S, climb: S, induced: S) -> MassFlow<S> {
         let speed = self.speed(edgewise, climb, induced);
         if speed.value() == 0.0 {
-            // Where the rotor induces nothing, the wake that is about to begin; where it brings its own air to
-            // rest, v V' has a corner and no slope.
+            // A rotor that induces nothing has the slope of the wake that is about to begin. Where
+            // its induced velocity brings the air to rest, v V' has a corner and no slope.
             let slope = match S::direction(climb + induced, edgewise) {
                 Some((through, _)) if induced.value() == 0.0 => speed + induced * through,
-                _ => S::zero(),
+                Some(_) | None => S::zero(),
             };
             return MassFlow { speed, slope };
         }
         let is_descent = (climb * induced).value() < 0.0;
+        let momentum = || speed + induced * (climb + induced) / speed;
         let slope = match self {
+            Self::Momentum => momentum(),
             Self::Measured if is_descent => {
                 let ratio = climb / induced;
                 let (gain, rise) = measured::gain(ratio);
                 speed + induced * induced * gain * (gain - ratio * rise) / speed
             }
             Self::Johnson if is_descent => {
-                let step = (induced.abs() + climb.abs() + edgewise) * 1e-5;
+                let step = C(1e-5) * (induced.abs() + climb.abs() + edgewise);
                 let thrust = |v: S| v * self.speed(edgewise, climb, v);
-                (thrust(induced + step) - thrust(induced - step)) / (step * 2.0)
+                (thrust(induced + step) - thrust(induced - step)) / (C(2.0) * step)
             }
-            _ => speed + induced * (climb + induced) / speed,
+            Self::Measured | Self::Johnson => momentum(),
         };
-        // Momentum theory in descent can have it negative, where it has no meaning; the wake then carries
-        // at least nothing away.
+        // In descent momentum theory can give a negative slope, which has no meaning: the wake
+        // carries away nothing at the least.
         MassFlow {
             speed,
             slope: slope.at_least(0.0),
@@ -106,11 +117,15 @@ pub enum FlowState {
 }
 
 impl FlowState {
-    /// `edgewise` (>= 0), `climb` and mean `induced` velocity, m/s; `thrust`: over rho A, m2/s2.
+    /// The flow state by Johnson's boundary (2005, NASA/TP-2005-213477): inside the boundary it is the
+    /// vortex ring, below it the turbulent wake, down to the end of the model (V_c/v_h = -2 in axial
+    /// flow), and below that the windmill brake. In fast edgewise flow, where there is no boundary,
+    /// the direction of the air through the disc decides.
     ///
-    /// In units of v_h: the vortex ring within Johnson's boundary (2005, NASA/TP-2005-213477); below it
-    /// the turbulent wake as far as the boundary's lower end reaches, -2 in axial flow; else by the direction of
-    /// the air.
+    /// * `edgewise`: flow along the disc, >= 0, m/s
+    /// * `climb`: flow down through the disc, m/s
+    /// * `induced`: mean induced velocity, positive down, m/s
+    /// * `thrust`: T/(rho A), m2/s2
     pub fn of(edgewise: f64, climb: f64, induced: f64, thrust: f64) -> Self {
         let side = if thrust < 0.0 { -1.0 } else { 1.0 };
         let hover = libm::sqrt(thrust.abs() / 2.0);
