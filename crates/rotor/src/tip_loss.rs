@@ -43,6 +43,14 @@ pub struct Span {
 }
 
 impl TipLoss {
+    /// Whether the model acts by Prandtl's factor F.
+    pub fn has_factor(self) -> bool {
+        match self {
+            Self::Prandtl | Self::PrandtlTipAndRoot => true,
+            Self::None | Self::HalfTipChord | Self::Sissingh | Self::PrandtlThrust => false,
+        }
+    }
+
     /// Prandtl's factor F, 0 to 1: the mean induced velocity around the annulus over that at the
     /// blade. It is 1 for models without a factor, and where no air passes through the disc
     /// (phi = 0).

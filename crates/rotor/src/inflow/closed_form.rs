@@ -27,7 +27,6 @@ use crate::{
     element::{Element, SectionLoad},
     root::{End, RootError, bracketed},
     scalar::{C, Scalar},
-    tip_loss::TipLoss,
 };
 
 /// The answer of the closed form for a blade element. SI units.
@@ -152,14 +151,9 @@ fn loaded_flow<S: Scalar>(
     let pitch_flow = pitch * rotation;
     let with = |factor: S| through_flow(a / factor, climb, pitch_flow);
     let without_loss = with(S::one());
-    match element.tip_loss {
-        TipLoss::Prandtl => {}
+    if !element.tip_loss.has_factor() {
         // No loss, or the end of the lift, which `slope` contains.
-        TipLoss::None | TipLoss::HalfTipChord | TipLoss::Sissingh | TipLoss::PrandtlThrust => {
-            return Ok(without_loss);
-        }
-        // The flow leaves the factor out; only the mean induced velocity has it.
-        TipLoss::PrandtlTipAndRoot => return Ok(without_loss),
+        return Ok(without_loss);
     }
     // The solution lies between `without_loss` (F = 1) and its limit theta Omega r (F = 0).
     let residual = |through: S| {
