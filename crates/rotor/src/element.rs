@@ -2,7 +2,7 @@
 
 use super::{
     airfoil::{Airfoil, SectionModel, Similarity, wrapped},
-    scalar::Scalar,
+    scalar::{C, Scalar},
     tip_loss::{Span, TipLoss},
 };
 use core::f64::consts::PI;
@@ -12,62 +12,70 @@ use core::f64::consts::PI;
 pub struct Element<'a, S = f64> {
     /// Number of blades N.
     pub blades: f64,
-    /// Radius of the element's middle, of the root and of the tip, m.
+    /// Radius of the element's middle, m.
     pub radius: f64,
+    /// Radius of the root cutout, m.
     pub root_radius: f64,
+    /// R, m.
     pub tip_radius: f64,
-    /// m.
+    /// c, m.
     pub chord: f64,
-    /// Pitch of the section against the disc without cyclic pitch, rad.
+    /// Pitch of the section from the disc, without cyclic pitch, rad.
     pub pitch: S,
-    /// Share of the element that carries lift, 0 to 1 (tip losses that end it).
+    /// Fraction of the width that carries lift, 0 to 1, for tip losses that end the lift.
     pub lifting_share: S,
+    /// Loss of lift at the ends of the blade.
     pub tip_loss: TipLoss,
+    /// The airfoils on either side.
     pub section: Section<'a>,
+    /// How coefficients are made from airfoil data.
     pub model: &'a SectionModel,
     /// Reynolds and Mach number of a flow of 1 m/s.
     pub unit_flow: Similarity<S>,
-    /// kg/m3.
+    /// Density of the air, kg/m3.
     pub density: S,
 }
 
 /// The airfoils of the stations on either side of an element, whose coefficients are mixed.
 #[derive(Debug, Clone, Copy)]
 pub struct Section<'a> {
+    /// Airfoil of the station inboard.
     pub inner: &'a Airfoil,
+    /// Airfoil of the station outboard.
     pub outer: &'a Airfoil,
-    /// 0 to 1.
+    /// Weight of the outer airfoil, 0 to 1.
     pub outer_share: f64,
 }
 
-/// Where the tip loss F of an inflow model stands.
+/// Where Prandtl's tip loss F acts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LossIn {
     /// In the momentum of the annulus; the section's lift is whole.
     Momentum,
-    /// In the section's lift, because the inflow knows nothing of the tip.
+    /// In the section's lift, for inflow models without a tip.
     Lift,
 }
 
-/// The loads of one blade's section per unit of radius, N/m, and the flow that meets it.
+/// The loads of one blade's section per unit of radius, N/m, and the flow at it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionLoad<S = f64> {
     /// Along the shaft, up.
     pub normal: S,
     /// In the disc, against the motion of the blade.
     pub tangential: S,
-    /// rad, between -pi and pi.
+    /// Angle of attack, rad, between -pi and pi.
     pub angle_of_attack: S,
-    /// m/s.
+    /// Speed of the flow, m/s.
     pub speed: S,
-    /// Of the element as a whole, with its tip loss.
+    /// Averaged over the element, with its tip loss.
     pub lift_coefficient: S,
+    /// Drag coefficient.
     pub drag_coefficient: S,
 }
 
 impl<S: Scalar> SectionLoad<S> {
-    /// Of a section in still air, and of one whose angle of attack nobody asks for.
-    pub fn none() -> Self {
+    /// No loads, no flow.
+    pub fn zero() -> Self {
         Self {
             normal: S::zero(),
             tangential: S::zero(),
@@ -85,6 +93,7 @@ impl<S: Scalar> Element<'_, S> {
         self.blades * self.chord / (2.0 * PI * self.radius)
     }
 
+    /// r/R of the element's middle.
     pub fn radius_ratio(&self) -> f64 {
         self.radius / self.tip_radius
     }
@@ -97,7 +106,8 @@ impl<S: Scalar> Element<'_, S> {
         }
     }
 
-    /// Lift coefficient of the whole element, of which the share `lifting_share` carries lift.
+    /// Lift coefficient of the element, averaged over its width: only `lifting_share` of it carries lift.
+    /// `alpha` in rad, `speed` in m/s.
     pub fn lift_coefficient(&self, alpha: S, speed: S) -> S {
         let flow = self.similarity(speed);
         self.section
@@ -105,6 +115,7 @@ impl<S: Scalar> Element<'_, S> {
             * self.lifting_share
     }
 
+    /// Drag coefficient at an angle of attack, rad, and a speed, m/s.
     pub fn drag_coefficient(&self, alpha: S, speed: S) -> S {
         let flow = self.similarity(speed);
         self.section
@@ -121,17 +132,17 @@ impl<S: Scalar> Element<'_, S> {
         self.tip_loss.factor(&span, sin_inflow)
     }
 
-    /// Loads of the section at a pitch (rad) in a flow with the part `in_plane` against the
-    /// motion of the blade and `through` down through the disc (m/s), thesis eqs. (74) to (76)
-    /// and (83), (84) without small angles. The flow along the blade has no effect on a section
-    /// (independence principle), and none on its drag here.
+    /// Loads of the section at a pitch (rad) in a flow with the components `in_plane` against the
+    /// motion of the blade and `through` down through the disc (m/s): thesis eqs. (74) to (76) and (83),
+    /// (84) without small angles. The flow along the blade has no effect on a section (independence
+    /// principle), and here none on its drag either.
     pub fn load(&self, pitch: S, in_plane: S, through: S, loss: LossIn) -> SectionLoad<S> {
         let speed = in_plane.hypot(through);
         if speed.value() == 0.0 {
             return SectionLoad {
                 angle_of_attack: wrapped(pitch),
                 speed,
-                ..SectionLoad::none()
+                ..SectionLoad::zero()
             };
         }
         let (sin, cos) = (through / speed, in_plane / speed);
@@ -142,7 +153,7 @@ impl<S: Scalar> Element<'_, S> {
                 LossIn::Lift => self.tip_loss_factor(sin),
             };
         let drag = self.drag_coefficient(alpha, speed);
-        let pressure = self.density * 0.5 * speed * speed * self.chord;
+        let pressure = C(0.5) * self.density * speed * speed * self.chord;
         SectionLoad {
             normal: pressure * (lift * cos - drag * sin),
             tangential: pressure * (lift * sin + drag * cos),
@@ -153,8 +164,8 @@ impl<S: Scalar> Element<'_, S> {
         }
     }
 
-    /// Whether a section in this flow is beyond the first peak of its lift, to either side. Still
-    /// air stalls nothing.
+    /// Whether the section is beyond the first peak of its lift, to either side. It is not in still
+    /// air.
     pub fn is_stalled(&self, load: &SectionLoad<S>) -> bool {
         let flow = self.similarity(load.speed);
         let limit = |side: fn((S, S)) -> S| {

@@ -1,10 +1,10 @@
 //! Flapping of rigid blades about their hinges.
 //!
-//! The blade beyond the hinge at the radius h is a uniform rod, so that its moment of inertia I about the
-//! hinge gives its other moments: with the length l = R - h, the first moment S = 3/2 I/l and the mass m =
-//! 3 I/l^2. Newton's law for its turn about the hinge (Johnson 1980, "Helicopter Theory", ch. 5, here
-//! without small angles), with n, X and Z of `disc`, w = (w_r, w_t, W) the angular velocity of
-//! the blade's frame, W the rotor's speed against the air and Omega that against the hub:
+//! The blade outboard of the hinge at radius h is a uniform rod, so that its moment of inertia I about
+//! the hinge gives the other moments: with the length l = R - h, the first moment S = 3/2 I/l and the
+//! mass m = 3 I/l^2. Newton's law for its rotation about the hinge (Johnson 1980, "Helicopter
+//! Theory", ch. 5, here without small angles), with n, X and Z of `disc`, the angular velocity
+//! (w_r, w_t, W) of the blade's frame, the rotor speed W against the air and Omega against the hub:
 //!
 //! ```text
 //! I beta'' = M - k (beta - beta_p) + S n.g + w_t' (I + h S cos beta)
@@ -12,13 +12,15 @@
 //!            - h S sin beta (w_r^2 + w_t^2 + W^2),        w_t' = -Omega w_r
 //! ```
 //!
-//! M is the moment of the air, k the spring, which pulls towards the precone beta_p. For small angles and a
-//! hub at rest the frequency is Omega sqrt(1 + h S/I + k/(I Omega^2)), h S/I = 3/2 e/(1 - e).
+//! M is the moment of the air and k the spring, which pulls towards the precone beta_p. For small
+//! angles and a hub at rest the flapping frequency is Omega sqrt(1 + h S/I + k/(I Omega^2)),
+//! h S/I = 3/2 e/(1 - e).
 //!
-//! Assumptions. The hub's velocity and angular velocity change slowly enough that their derivatives push no
-//! blade. The hub feels each blade through its spring and, at the offset, through what the air and the
-//! blade's inertia pull up there; in the disc it feels the air alone, because inertia forces there cancel
-//! over a turn. The weight of the blades belongs to the vehicle's.
+//! Assumptions. The hub's velocity and angular velocity change slowly enough that their derivatives
+//! do not act on the blades. The hub feels each blade through its spring and, at the offset, through
+//! the forces of the air and of the blade's inertia. In the disc it feels the air alone, because
+//! inertia forces cancel over one revolution. The weight of the blades belongs to the vehicle's
+//! weight.
 
 use super::{
     disc::{BladePosition, DiscFlow},
@@ -31,21 +33,22 @@ use nalgebra::Vector3;
 /// How the blades are held. Blades that do not flap are rigid at the precone angle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Hinge {
-    /// m, from the shaft.
+    /// Distance of the hinges from the shaft, m.
     pub offset: f64,
     /// Angle at which the spring is at rest, rad.
     pub precone: f64,
+    /// None for rigid blades.
     pub freedom: Option<Freedom>,
 }
 
 /// A blade that flaps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Freedom {
-    /// Of one blade about its hinge, kg.m2.
+    /// Moment of inertia of one blade about its hinge, kg.m2, > 0.
     pub inertia: f64,
     /// Tangent of delta3: the pitch falls by this times the flap angle above the precone.
     pub pitch_flap: f64,
-    /// Length of the blade beyond the hinge, m.
+    /// Length of the blade outboard of the hinge, m, > 0.
     pub length: f64,
 }
 
@@ -54,9 +57,9 @@ pub struct Freedom {
 pub struct Action<S = f64> {
     /// Moment of the air about the hinge, up, N.m.
     pub moment: S,
-    /// N.m/rad.
+    /// Stiffness of the hinge, N.m/rad.
     pub spring: S,
-    /// Acceleration of gravity in the axes of the disc's flow, m/s2.
+    /// Acceleration of gravity in wind axes, m/s2.
     pub gravity: Vector3<S>,
 }
 
@@ -95,8 +98,8 @@ impl Freedom {
         (action.moment - spring + weight + turning - across - centrifugal) / self.inertia
     }
 
-    /// By how much the moment that the blade hands to the hub about -e_t (up) exceeds that of the air
-    /// about the hub's centre, N.m: k (beta - beta_p) - M - h integral of a_z dm.
+    /// The moment of a blade on the hub about -e_t (up) less that of the air about the hub's centre,
+    /// N.m: k (beta - beta_p) - M - h integral of a_z dm.
     pub fn hub_moment_excess<S: Scalar>(
         &self,
         hinge: &Hinge,

@@ -3,6 +3,32 @@
 //! A `Rotor` is a definition that never changes. It answers a `Response` at an `OperatingPoint` in a `State`, computed in a
 //! `Workspace`, in plain numbers or in dual ones that carry exact derivatives.
 //!
+//! ```
+//! use rotor::{Models, OperatingPoint, Rotor, Workspace, air::Air, airfoil::Airfoil};
+//! use rotor::geometry::{Elements, Geometry};
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../modelDescription/resources/airfoils");
+//! # let file = std::path::Path::new(folder).join("naca0015-knight-hefner.polar");
+//! // Four blades, R = 0.762 m, cutout at R/6, chord 50.8 mm, neither taper nor twist.
+//! let geometry = Geometry::linear(4, 0.762, 1.0 / 6.0, 0.0508, 1.0, 0.0);
+//! geometry.check()?;
+//! let elements = Elements::new(&geometry, 40);
+//! let rotor = Rotor::new(geometry, elements, vec![Airfoil::read(&file)?], Models::default());
+//!
+//! // Hover at a collective of 8 deg and 960 rev/min, sea level.
+//! let point = OperatingPoint::hover(0.1396, 100.5, Air::standard(0.0));
+//! let hub = rotor.steady(&point)?;
+//! assert!((hub.force.z - 65.8).abs() < 0.1, "{} N", hub.force.z);
+//!
+//! // The same in numbers of one's own choosing, with rates of the states and loads along the blade.
+//! let mut workspace = Workspace::new(&rotor);
+//! let response = rotor.respond(&point, &Default::default(), &mut workspace)?;
+//! assert_eq!(response.hub.force, hub.force);
+//! assert!(response.blade.at(0.75).angle_of_attack > 0.05);
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! "The thesis" is Lovaco Hernandez, J. L. (2017), "Verification of a Modelica Helicopter Rotor Model Using Blade Element
 //! Theory", Linkoping University, LIU-IEI-TEK-A--17/02958-SE.
 //!
@@ -15,6 +41,8 @@
 //! * inflow: `inflow`
 //! * the rotor: `state`, `operating_point`, `flapping`, `models`, `rotor`, `workspace`, `data_range`
 //! * what it computes: `evaluation`, `loads`, `lift_end`, `tip_path`, `hub_loads`, `rates`, `response`, `step`, `start`
+
+#![warn(missing_docs)]
 
 pub mod air;
 pub mod airfoil;

@@ -1,48 +1,55 @@
 //! Blade-element momentum theory in one annulus, for all angles and directions of flow.
 //!
-//! Geometry. The undisturbed flow that meets the element has the in-plane part Omega r and the
-//! part V down through the disc: speed U at the angle phi0 = atan2(V, Omega r). The bound vortices
-//! induce a velocity perpendicular to the flow W that actually meets the section (Glauert 1935,
-//! "Airplane Propellers", Durand's Aerodynamic Theory IV, div. L, ch. VII.2), whose axial part is
-//! the induced velocity and whose in-plane part is the swirl. So the section sees
+//! # Geometry
+//!
+//! The undisturbed flow at the element has the in-plane component Omega r and the component V down
+//! through the disc: speed U at the angle phi0 = atan2(V, Omega r). The bound vortices induce a
+//! velocity perpendicular to the flow W at the section (Glauert 1935, "Airplane Propellers",
+//! Durand's Aerodynamic Theory IV, div. L, ch. VII.2). Its axial component is the induced velocity,
+//! its in-plane component the swirl. So the section sees
 //!
 //! ```text
 //! W = U cos(phi - phi0),   magnitude of the induced velocity U |sin(phi - phi0)|
 //! ```
 //!
-//! at the inflow angle phi, which is the annulus' only unknown. Drag makes no circulation and so
-//! induces nothing (Wilson & Lissaman 1974, "Applied Aerodynamics of Wind Power Machines", ch. 3);
-//! with drag in the swirl, blades at zero lift in hover would stand in air that turns with them.
+//! at the inflow angle phi, the only unknown of the annulus. Drag makes no circulation and so
+//! induces nothing (Wilson & Lissaman 1974, "Applied Aerodynamics of Wind Power Machines", ch. 3).
+//! With drag in the swirl, blades at zero lift in hover would stand in air that turns with them.
 //!
-//! Momentum. The lift of the element's N blades equals the momentum given to the air that passes
-//! through the annulus at W |sin phi| (Glauert 1935, ch. VII.4, with Prandtl's F):
+//! # Momentum
+//!
+//! The lift of the element's N blades equals the momentum given to the air that passes through the
+//! annulus at W |sin phi| (Glauert 1935, ch. VII.4, with Prandtl's F):
 //!
 //! ```text
 //! N 1/2 rho W^2 c cl dr = 4 pi r rho W |sin phi| F U sin(phi - phi0) dr
 //! ```
 //!
-//! Multiplied out, as Ning 2021 ("Using blade element momentum methods with gradient-based design
-//! optimization", Struct. Multidisc. Optim. 64, p. 991) does, there is no division that could
-//! vanish, hover is no special case, and with the local solidity s = N c/(2 pi r)
+//! Multiplied out, as in Ning 2021 ("Using blade element momentum methods with gradient-based design
+//! optimization", Struct. Multidisc. Optim. 64, p. 991), no divisor can vanish and hover is no
+//! special case. With the local solidity s = N c/(2 pi r),
 //!
 //! ```text
 //! R(phi) = 4 F |sin phi| sin(phi - phi0) - s cl(theta - phi) cos(phi - phi0) = 0.
 //! ```
 //!
-//! Bracket. At phi = phi0 the sign of R is that of -cl; at 90 deg from there, R has the sign of
-//! the direction in which one went. So there is always a root on the side to which the lift pushes.
-//! In descent that side holds up to two more roots: the rotor as a windmill, with the air still
-//! passing upwards, if momentum theory is asked for descent too (see `descent`, whose other laws have one
-//! root). The windmill is taken where it shows: where R has changed its sign at one of
-//! the angles 1/2, 3/8, 1/4 or 1/8 of phi0 (without lift, 4 F |sin phi| sin(phi - phi0) is largest
-//! at 1/2, and lift that falls with phi shifts the largest R towards 0). Else the root on the
-//! other side of phi = 0 is taken, which continues hover: the air is pushed down through the disc
-//! (momentum theory as such, which is no longer a good theory there).
+//! # Bracket
 //!
-//! Flow along the disc, cyclic pitch and angular velocity of the hub. The induced velocity stays
-//! the same all around the annulus, perpendicular to the mean flow W; the lift is averaged over
-//! the azimuth, and the mass flow is Glauert's resultant sqrt(V_x^2 + (W sin phi)^2) (1926, ARC
-//! R&M 1111), so that
+//! At phi = phi0 the sign of R is that of -cl; 90 deg from there, R has the sign of the direction
+//! taken. So there is always a root on the side to which the lift pushes. In descent that side can
+//! hold two more roots under plain momentum theory (the other laws of `descent` have one root): the
+//! rotor as a windmill, with the air still passing upwards. The windmill is taken where R has
+//! changed its sign at one of the angles 1/2, 3/8, 1/4 or 1/8 of phi0 (without lift,
+//! 4 F |sin phi| sin(phi - phi0) is largest at 1/2, and lift that falls with phi shifts the largest R
+//! towards 0). Otherwise the root on the other side of phi = 0 is taken, which continues hover: the
+//! air is pushed down through the disc (plain momentum theory, which is no longer a good theory
+//! there).
+//!
+//! # Edgewise flow, cyclic pitch and angular velocity of the hub
+//!
+//! The induced velocity is the same all around the annulus and perpendicular to the mean flow W.
+//! The lift is averaged over the azimuth, and the mass flow is Glauert's resultant
+//! sqrt(V_x^2 + (W sin phi)^2) (1926, ARC R&M 1111), so that
 //!
 //! ```text
 //! R(phi) = 4 F sqrt(V_x^2 + (W sin phi)^2)/U sin(phi - phi0)
@@ -50,10 +57,10 @@
 //! ```
 //!
 //! which is the equation above times cos(phi - phi0) where all azimuths are alike. The lift is
-//! projected on the direction of the induced velocity, and so is the momentum. Blades by themselves
-//! take the place of the azimuths: the balance then holds at each instant. On the far side
-//! of the bracket the mean flow W vanishes; where strong flow along a slow disc leaves the sign
-//! of R unchanged even there, that end is taken: the rotor then brings its own air to rest.
+//! projected on the direction of the induced velocity, and so is the momentum. Where blades are
+//! computed one by one they take the place of the azimuths, and the balance holds at each instant.
+//! At the far end of the bracket the mean flow W vanishes. If strong edgewise flow along a slow disc
+//! leaves the sign of R unchanged even there, that end is taken: the rotor brings its own air to rest.
 
 use super::Momentum;
 use crate::{
@@ -61,14 +68,15 @@ use crate::{
     element::Element,
     induced::Induced,
     root::{End, RootError, bracketed},
-    scalar::Scalar,
+    scalar::{C, Scalar},
 };
 use core::f64::consts::FRAC_PI_2;
 
-/// To which the inflow angle is found, rad.
+/// Tolerance of the inflow angle, rad.
 const TOLERANCE: f64 = 1e-14;
 
-/// Distance from the far end of the bracket, rad, within which the mean flow counts as brought to rest.
+/// Distance from the far end of the bracket within which the mean flow counts as brought to rest,
+/// rad.
 const FAR_END: f64 = 1e-12;
 
 /// The mean of the undisturbed flow around the annulus: speed U and angle phi0.
@@ -78,17 +86,18 @@ struct Undisturbed<S> {
     angle: S,
 }
 
-/// What the annulus answers: the induced velocity at the blades, and the mean of its axial part
-/// around the annulus, m/s.
+/// The induced velocity in an annulus, m/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Answer<S = f64> {
+    /// At the blades.
     pub induced: Induced<S>,
+    /// Mean of the axial component around the annulus.
     pub mean_axial: S,
 }
 
 impl<S: Scalar> Answer<S> {
-    /// Of air that nothing moves.
-    pub fn none() -> Self {
+    /// No induced velocity.
+    pub fn zero() -> Self {
         Self {
             induced: Induced::axial(S::zero()),
             mean_axial: S::zero(),
@@ -107,7 +116,7 @@ fn axial_residual<S: Scalar>(
     let across = induced_angle.cos();
     let factor = element.tip_loss_factor(sin_inflow);
     let lift = element.lift_coefficient(-inflow_angle + element.pitch, across * undisturbed.speed);
-    factor * sin_inflow.abs() * induced_angle.sin() * 4.0 - lift * across * element.solidity()
+    C(4.0) * (factor * sin_inflow.abs() * induced_angle.sin()) - lift * across * element.solidity()
 }
 
 /// The residual R(phi) of the mean over blade positions, dimensionless.
@@ -126,7 +135,7 @@ fn mean_residual<S: Scalar>(
     let mut sum = S::zero();
     for position in positions {
         let section = flow.at_section(element.radius, position);
-        // In units of U, whose square may be no number.
+        // In units of U: its square can overflow.
         let (in_plane, through) = (
             (section.in_plane - induced.swirl) / speed,
             (section.through + section.flap_cos * induced.axial) / speed,
@@ -134,8 +143,8 @@ fn mean_residual<S: Scalar>(
         let square = in_plane * in_plane + through * through;
         let local_speed = square.sqrt();
         let alpha = element.pitch + section.pitch - through.atan2(in_plane);
-        // W_psi^2 cos(phi_psi - phi) = W_psi (W_psi cos phi_psi cos phi + W_psi sin phi_psi sin phi),
-        // of which the first stands on the flapping blade.
+        // W_psi^2 cos(phi_psi - phi) = W_psi (W_psi cos phi_psi cos phi + W_psi sin phi_psi sin phi);
+        // the first term is perpendicular to the flapped blade.
         let axial = section.flap_cos * in_plane * cos_inflow;
         let projected = local_speed * (axial + through * sin_inflow);
         sum += element.lift_coefficient(alpha, local_speed * speed) * projected;
@@ -147,7 +156,7 @@ fn mean_residual<S: Scalar>(
     factor * 4.0 * resultant * induced_part - lift * element.solidity()
 }
 
-/// The velocity induced at an inflow angle, without taking a difference of large numbers.
+/// The velocity induced at an inflow angle, without a difference of large numbers.
 fn induced<S: Scalar>(undisturbed: Undisturbed<S>, inflow_angle: S) -> Induced<S> {
     let magnitude = undisturbed.speed * (inflow_angle - undisturbed.angle).sin();
     Induced {
@@ -173,7 +182,7 @@ fn wake_sine<S: Scalar>(
 
 /// What an element's annulus induces in a flow, averaged over the blade positions.
 ///
-/// Fails only if the airfoil's or the flow's numbers are not finite, or so large that they overflow.
+/// Fails only if the airfoil's or the flow's numbers are not finite, or overflow.
 pub fn solve<S: Scalar>(
     element: &Element<S>,
     flow: &DiscFlow<S>,
@@ -186,7 +195,7 @@ pub fn solve<S: Scalar>(
         angle: flow.climb.atan2(rotation),
     };
     if undisturbed.speed.value() == 0.0 {
-        return Ok(Answer::none());
+        return Ok(Answer::zero());
     }
     let equation = |phi: S| mean_residual(element, flow, positions, momentum, undisturbed, phi);
     let inflow_angle = if is_one_for_all(flow, positions) {
@@ -232,7 +241,7 @@ fn inflow_angle<S: Scalar>(
     let found = root(first, pitch.value(), |phi| {
         equation(S::constant(phi)).value()
     })?;
-    // Nothing induced, or the mean flow brought to rest: the angle keeps its distance to phi0.
+    // Nothing is induced, or the mean flow is brought to rest: the angle keeps its distance to phi0.
     let distance = found - undisturbed.value();
     if start.is_negligible(0.0) || f64::abs(distance) > FRAC_PI_2 - FAR_END {
         return Ok(S::at_root(found, |phi| phi - undisturbed - distance));

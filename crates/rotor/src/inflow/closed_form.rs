@@ -81,7 +81,7 @@ pub fn solve<S: Scalar>(
     if rotation.value() < STANDSTILL {
         // Angles are small only against the flow of rotation. At standstill this theory has no load.
         return Ok(ClosedForm {
-            load: SectionLoad::none(),
+            load: SectionLoad::zero(),
             induced: none,
             mean_induced: none,
         });

@@ -1,28 +1,28 @@
-//! Momentum theory for each blade by itself: Dahl 2015 after Knight & Hefner 1937 (NACA TN 626); thesis
-//! section 3.3.1.
+//! Momentum theory for each blade by itself: Dahl 2015 after Knight & Hefner 1937 (NACA TN 626);
+//! thesis section 3.3.1.
 //!
-//! In the time T_rev that a blade takes to where the next one was, T_rev = 2 pi/(N Omega), its element of
-//! the width l meets the air of an area l U_T T_rev, which passes the disc at V + v and takes up twice v. So
-//! the lift L of the element is L = 2 rho l U_T T_rev (V + v) v, of which the thesis' formula is the root
+//! A blade takes the time T_rev = 2 pi/(N Omega) to where the next one was. In it, its element of
+//! width l meets the air of an area l U_T T_rev, which passes the disc at V + v and takes up twice v.
+//! So the lift L of the element is L = 2 rho l U_T T_rev (V + v) v. The thesis' formula is its root
 //!
 //! ```text
 //! v = (-l rho T_rev U_T V + sqrt(2 l rho T_rev U_T L + (l rho T_rev U_T V)^2))/(2 l rho T_rev U_T)
 //! ```
 //!
-//! (its L and signs are lost in the copy at hand). There L was the lift without v; here it is that in v,
-//! which makes the equation implicit. V is U_P, what passes the blade without v, in which each blade
-//! has its own. With L = 1/2 rho W c cl U_T (the part of the lift along the shaft, U_T = W cos phi) U_T
-//! cancels, so that the reversed flow's edge is no special case, and with Prandtl's F and v's direction
-//! free
+//! (its L and signs are lost in the copy at hand). There L is the lift without v; here it is the
+//! lift in v, which makes the equation implicit. V is U_P, the flow through the disc at the blade
+//! without v; each blade has its own. With L = 1/2 rho W c cl U_T (the component of the lift along
+//! the shaft, U_T = W cos phi) U_T cancels, so that the edge of the reversed flow is no special case.
+//! With Prandtl's F and either direction of v
 //!
 //! ```text
 //! 2 v |U_P + v| = N Omega c W cl sign(U_T)/(4 pi F).
 //! ```
 //!
-//! In hover this is the annulus' momentum without swirl. With flow along the disc, V_x, of which the source
-//! says nothing, |U_P + v| becomes Glauert's resultant sqrt(V_x^2 + (U_P + v)^2) (1926, ARC R&M 1111), as
-//! in the other models, and in descent what `descent` has for it: without the resultant the inflow would
-//! stay that of hover at any speed. A rotor at rest induces nothing.
+//! In hover this is the annulus' momentum balance without swirl. The source says nothing of edgewise
+//! flow V_x. Here |U_P + v| becomes Glauert's resultant sqrt(V_x^2 + (U_P + v)^2) (1926, ARC
+//! R&M 1111), as in the other models, and in descent the mass flow of `descent`; without the
+//! resultant the inflow would stay that of hover at any speed. A stopped rotor induces nothing.
 
 use super::{Momentum, annulus::Answer, uniform};
 use crate::{
@@ -34,9 +34,9 @@ use crate::{
 };
 use core::f64::consts::PI;
 
-/// What a blade's element induces.
+/// The velocity that a blade's element induces.
 ///
-/// `flow`: of the disc, of which the rotor speed and the speed along the disc count here.
+/// Of `flow` the rotor speed and the edgewise speed count here. Fails only if numbers are not finite.
 pub fn solve<S: Scalar>(
     element: &Element<S>,
     section: &SectionFlow<S>,
@@ -45,7 +45,7 @@ pub fn solve<S: Scalar>(
 ) -> Result<Answer<S>, RootError> {
     let scale = (section.in_plane.hypot(section.through) + flow.edgewise).value();
     if scale == 0.0 {
-        return Ok(Answer::none());
+        return Ok(Answer::zero());
     }
     let pitch = element.pitch + section.pitch;
     let forward = if section.in_plane.value() < 0.0 {
@@ -54,8 +54,8 @@ pub fn solve<S: Scalar>(
         1.0
     };
     let strength = flow.rotation.abs() * element.blades * element.chord * forward / (4.0 * PI);
-    // What is left of v near the ground, and the flow that meets the section with it.
-    let met = |v: S| {
+    // v reduced by the ground, and the flow at the section with it: component through and speed.
+    let flow_with = |v: S| {
         let axial = momentum
             .at_the_blades(flow.edgewise, v, Induced::axial(v))
             .axial;
@@ -72,7 +72,7 @@ pub fn solve<S: Scalar>(
         element.tip_loss_factor(sine)
     };
     let thrust = |v: S| {
-        let (_, through, speed) = met(v);
+        let (_, through, speed) = flow_with(v);
         if speed.value() == 0.0 {
             return S::zero();
         }
@@ -82,7 +82,7 @@ pub fn solve<S: Scalar>(
     };
     let mass_flow = |v: S| momentum.descent.speed(flow.edgewise, section.through, v);
     let v = uniform::mean_velocity(mass_flow, section.through, scale, thrust)?;
-    let (axial, through, speed) = met(v);
+    let (axial, through, speed) = flow_with(v);
     let share = if speed.value() == 0.0 {
         S::one()
     } else {
@@ -104,8 +104,8 @@ mod tests {
         *,
     };
 
-    /// The air that passes a blade which is turned up changes its sign while the blade flaps: nothing jumps then,
-    /// neither in the momentum nor in Prandtl's F.
+    /// The flow through a blade that is turned up changes its sign while the blade flaps. Neither the
+    /// momentum nor Prandtl's F jumps there.
     #[test]
     fn nothing_jumps_where_the_flow_through_a_flapped_blade_changes_its_sign() {
         let airfoil = airfoil();

@@ -12,29 +12,35 @@
 //!     | 0             0             2 (1 + X^2)|
 //! ```
 //!
-//! in the order (v0, vc, vs), chi the skew of the wake, V = diag(VT, Vm, Vm) with VT = sqrt(mu^2 +
-//! lambda^2) and Vm = (mu^2 + (lambda + lambda_i) lambda)/VT = d(lambda_i VT)/d lambda_i, or in descent what
-//! `descent` has for them. It is the usual form multiplied by
-//! (Omega R)^2, so that a rotor at rest is no special case. The steady state without moments is momentum
-//! theory, T = 2 rho A VT v0, with kx = 15 pi/32 tan(chi/2).
+//! in the order (v0, vc, vs), with the skew chi of the wake and V = diag(VT, Vm, Vm), where
+//! VT = sqrt(mu^2 + lambda^2) and Vm = (mu^2 + (lambda + lambda_i) lambda)/VT =
+//! d(lambda_i VT)/d lambda_i; in descent, `descent` gives both. It is the usual form multiplied by
+//! (Omega R)^2, so that a stopped rotor is no special case. The steady state without moments is
+//! momentum theory, T = 2 rho A VT v0, with kx = 15 pi/32 tan(chi/2).
 //!
-//! Sign of the coupling. Load at the rear has its wake behind the disc and lowers the mean inflow, load
-//! at the front raises it: the off-diagonal terms have opposite signs. With equal ones L would be
-//! singular at chi = 77.7 deg.
+//! Sign of the coupling. Load at the rear has its wake behind the disc and lowers the mean inflow;
+//! load at the front raises it. So the off-diagonal terms have opposite signs. With equal signs L
+//! would be singular at chi = 77.7 deg.
 
 use super::{
     InflowStates, MAX_STATES,
     descent::MassFlow,
     dynamic::{DiscLoading, Stream},
 };
-use crate::{induced::Field, scalar::Scalar};
+use crate::{
+    induced::Field,
+    scalar::{C, Scalar},
+};
 use core::f64::consts::PI;
 
 /// The loading of the disc over rho A, m2/s2.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Loading<S = f64> {
+    /// T/(rho A).
     pub thrust: S,
+    /// Integral of x cos psi dT.
     pub cosine: S,
+    /// Integral of x sin psi dT.
     pub sine: S,
 }
 
@@ -62,7 +68,7 @@ pub fn to_states<S: Scalar>(field: &Field<S>) -> InflowStates<S> {
 const APPARENT_MASS: f64 = 8.0 / (3.0 * PI);
 const APPARENT_INERTIA: f64 = 16.0 / (45.0 * PI);
 
-/// V L^-1, m/s, by its entries that are not zero.
+/// The entries of V L^-1 that are not zero, m/s.
 struct Gains<S> {
     mean: S,
     mean_by_cosine: S,
@@ -86,15 +92,15 @@ fn gains<S: Scalar>(stream: &Stream<S>, induced: S) -> Gains<S> {
         };
     }
     let skew = stream.skew(induced);
-    let coupling = skew * (15.0 * PI / 64.0);
-    let (a, d) = (0.5, (S::one() - skew * skew) * 2.0);
+    let coupling = C(15.0 * PI / 64.0) * skew;
+    let (a, d) = (0.5, C(2.0) * (C(1.0) - skew * skew));
     let determinant = d * a + coupling * coupling;
     Gains {
         mean: total * d / determinant,
         mean_by_cosine: total * coupling / determinant,
         cosine: slopes * a / determinant,
         cosine_by_mean: -slopes * coupling / determinant,
-        sine: slopes / ((skew * skew + 1.0) * 2.0),
+        sine: slopes / (C(2.0) * (C(1.0) + skew * skew)),
     }
 }
 
@@ -115,7 +121,7 @@ pub fn rate<S: Scalar>(stream: &Stream<S>, field: &Field<S>, loading: &Loading<S
 /// plus the damping by the blades with a lift slope of 2 pi. `solidity` is N c/(pi R), `tip_speed` in m/s.
 pub fn fastest_rate(stream: &Stream, induced: f64, solidity: f64, tip_speed: f64) -> f64 {
     let gains = gains(stream, induced);
-    // The mass flow changes with the mean as well, which counts where it nearly vanishes.
+    // The mass flow changes with the mean, too, which counts where it nearly vanishes.
     let mean = 2.0 * gains.mean + 2.0 * induced.abs();
     let wake = mean / APPARENT_MASS + (gains.cosine + gains.sine) / APPARENT_INERTIA;
     let speed = tip_speed + stream.edgewise;
@@ -188,8 +194,8 @@ mod tests {
         (edgewise * edgewise + through * through).sqrt()
     }
 
-    /// Small changes of the mean in hover die away with R 8/(3 pi)/(4 v0): the apparent mass of a disc
-    /// against the slope of 2 v^2.
+    /// Small changes of the mean in hover decay with the time constant R 8/(3 pi)/(4 v0): the apparent
+    /// mass of a disc over the slope of 2 v^2.
     #[test]
     fn time_constant_of_the_mean_in_hover() {
         let (v0, radius, small) = (4.0, 2.0, 1e-6);
