@@ -1,9 +1,10 @@
-//! Whatever a file holds, its readers answer with an airfoil or an error, and never panic.
+//! The readers answer any file with an airfoil or an error, and never panic.
 
 use super::{Airfoil, AirfoilError, Lift, SectionModel, Similarity, c81, combi, polar};
 use crate::compressibility::Compressibility;
 use proptest::{prelude::*, sample::Index};
 
+/// A good file of each format.
 const SAMPLES: [&str; 3] = [
     "#1\ndouble airfoil(2, 7)\n2e4 6.2 3.0 0.175 0.032 0 1.1\n1e6 6.3, 4.6; 0.297 0.0096 0 0.36 # x\n",
     "polar 1\nname x\nreynolds 1e5\n-180 0 0.02\n0 0 0.01 # note\n10 1 0.02 -0.1\n180 0 0.02\n",
