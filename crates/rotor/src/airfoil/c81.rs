@@ -18,7 +18,14 @@
 use super::{
     Airfoil, AirfoilError, Axis, Data, Layers, Table,
     curve::{Coefficient, Curve, CurveProblem},
+    formats::{Format, has_extension},
     records::{Layout, Number, Problem, Records, words},
+};
+
+/// A file is in this format if its name ends in `.c81`.
+pub const FORMAT: Format = Format {
+    detects: |path, _| has_extension(path, "c81"),
+    parse,
 };
 
 /// Number of characters before the counts.

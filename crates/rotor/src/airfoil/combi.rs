@@ -17,8 +17,15 @@
 
 use super::{
     Airfoil, AirfoilError, Data,
+    formats::Format,
     laws::{Coefficients, Law, LawError, Laws},
     records::{Number, Problem, words},
+};
+
+/// A file is in this format if its text begins with `#1`.
+pub const FORMAT: Format = Format {
+    detects: |_, text| is_combi(text),
+    parse,
 };
 
 /// The table to read if the file holds several.
@@ -42,7 +49,7 @@ struct Matrix {
 }
 
 /// Whether a text begins as a CombiTable file does.
-pub fn is_combi(text: &str) -> bool {
+fn is_combi(text: &str) -> bool {
     let rest = text.strip_prefix("#1");
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(char::is_whitespace))
 }

@@ -1,12 +1,13 @@
 //! Section data: lift and drag coefficients over the full circle of angles of attack, for one or
 //! more Reynolds or Mach numbers, read from files.
 //!
-//! What a file holds becomes curves in layers (`table`) or laws (`laws`), which check themselves all
-//! that they rely on.
+//! Each file format has its own file here and a row in `formats`. What a format reads becomes curves
+//! in layers (`table`) or laws (`laws`), which check themselves all that they rely on.
 
 mod c81;
 mod combi;
 mod curve;
+mod formats;
 #[cfg(test)]
 mod fuzz;
 mod laws;
@@ -116,27 +117,17 @@ enum Data {
 }
 
 impl Airfoil {
-    /// Reads a file: a CombiTable of laws if it begins with `#1`, polars by Reynolds number if its
-    /// name ends in `.polar`, else C81.
+    /// Reads a file. Its format is that of `formats` which detects it first: a CombiTable of laws if
+    /// it begins with `#1`, polars by Reynolds number if its name ends in `.polar`, else C81.
     ///
     /// # Errors
     ///
     /// The first problem, with its place in the file.
     pub fn read(path: &Path) -> Result<Self, AirfoilError> {
         let file = path.display().to_string();
-        let text = text_file::read(path).map_err(|reason| AirfoilError::Unreadable {
-            file: file.clone(),
-            reason,
-        })?;
-        if combi::is_combi(&text) {
-            combi::parse(&text, &file)
-        } else if path
-            .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("polar"))
-        {
-            polar::parse(&text, &file)
-        } else {
-            c81::parse(&text, &file)
+        match text_file::read(path) {
+            Ok(text) => (formats::detected(path, &text).parse)(&text, &file),
+            Err(reason) => Err(AirfoilError::Unreadable { file, reason }),
         }
     }
 

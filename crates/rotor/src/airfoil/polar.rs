@@ -16,6 +16,13 @@
 use super::{
     Airfoil, AirfoilError, Axis, Data, Layers, Table,
     curve::{Coefficient, Curve},
+    formats::{Format, has_extension},
+};
+
+/// A file is in this format if its name ends in `.polar`.
+pub const FORMAT: Format = Format {
+    detects: |path, _| has_extension(path, "polar"),
+    parse,
 };
 
 /// What is wrong, and in which line (from 1).
