@@ -10,10 +10,10 @@
 //! 1e6      6.3     4.6             0.297        0.0096  0.0   0.36
 //! ```
 //!
-//! As in Modelica, numbers are separated by blanks, tabs, commas or semicolons, and a row may go on in
-//! the next line. Of several tables in a file, the one with the name `airfoil` is read. The columns
-//! are those of `CombiTable1D` with the Reynolds number as its input; the last one to seven columns
-//! are the coefficients of the drag polynomial. `laws` says what the numbers mean.
+//! As in Modelica, numbers are separated by blanks, tabs, commas or semicolons, and a row may go on
+//! in the next line. Of several tables in a file, the one with the name `airfoil` is read. The
+//! columns are those of `CombiTable1D` with the Reynolds number as its input; the last one to seven
+//! columns are the coefficients of the drag polynomial. `laws` says what the numbers mean.
 
 use super::{
     Airfoil, AirfoilError, Data,

@@ -223,8 +223,8 @@ fn check_point(
     Ok(())
 }
 
-/// Angle of the first local maximum of lift at positive angles up to 30 deg. If the lift has no local
-/// maximum there, the angle of the largest value there; 180 if there is no lift. deg.
+/// Angle (deg) of the first local maximum of lift above 0 and up to 30 deg. Without a local
+/// maximum, the angle of the largest lift in that range; without lift, 180.
 fn first_peak(points: impl Iterator<Item = (f64, f64)>) -> f64 {
     let mut best: (f64, f64) = (180.0, 0.0);
     for (alpha, lift) in points.filter(|p| p.0 > 0.0 && p.0 <= 30.0) {

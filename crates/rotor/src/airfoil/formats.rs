@@ -14,7 +14,7 @@ pub struct Format {
     pub parse: fn(&str, &str) -> Result<Airfoil, AirfoilError>,
 }
 
-/// All formats. The first that detects a file reads it; the last also reads files that none detects.
+/// All formats. The first that detects a file reads it; the last reads the rest.
 pub const FORMATS: [Format; 3] = [combi::FORMAT, polar::FORMAT, c81::FORMAT];
 
 /// The format of a file with this path and text.

@@ -1,5 +1,5 @@
-//! A symmetrical section by simple laws for each Reynolds number: two lift slopes, a stall angle and
-//! a polynomial for the drag, as in the thesis, sections 3.5.1 to 3.5.3.
+//! A symmetrical section by simple laws for each Reynolds number: two lift slopes, a stall angle
+//! and a polynomial for the drag, as in the thesis, sections 3.5.1 to 3.5.3.
 //!
 //! ```text
 //! line A   cl = a alpha                                   from 0 to 3 deg
@@ -16,8 +16,8 @@
 //! reference radius, and it is the same on blades without twist.
 //!
 //! Beyond stall the thesis says nothing. We go on as the shipped polars do: Viterna & Corrigan
-//! (1982), NASA CP-2230, from the stall angle to 90 deg, with the largest drag coefficient 2.01 of a
-//! flat plate of aspect ratio 50,
+//! (1982), NASA CP-2230, from the stall angle to 90 deg, with the largest drag coefficient 2.01 of
+//! a flat plate of aspect ratio 50,
 //!
 //! ```text
 //! cl = 2.01/2 sin(2 alpha) + A2 cos(alpha)^2/sin(alpha),   cd = 2.01 sin(alpha)^2 + B2 cos(alpha),
@@ -48,7 +48,7 @@ const MAX_SLOPE: f64 = 20.0;
 /// Maximum stall angle, deg; no section stalls later in steady flow.
 const MAX_STALL: f64 = 45.0;
 
-/// Number of intervals up to stall at the ends of which the drag polynomial is checked.
+/// Number of intervals up to stall; the drag polynomial is checked at their ends.
 const CHECKS: usize = 200;
 
 /// Maximum drag coefficient beyond stall: 1.11 + 0.018 times the aspect ratio 50.
@@ -151,8 +151,8 @@ impl Law {
     ///
     /// # Errors
     ///
-    /// The first number out of its range; the drag polynomial is checked at 201 angles from 0 to the
-    /// stall angle.
+    /// The first number out of its range; the drag polynomial is checked at 201 angles from 0 to
+    /// the stall angle.
     pub fn try_new(numbers: Coefficients) -> Result<Self, LawError> {
         let Coefficients {
             reynolds,

@@ -136,8 +136,8 @@ impl Layers {
         }
     }
 
-    /// The layer at or below the flow's number, and how far (0 to 1) the number lies towards the next
-    /// layer. Where a single layer holds, as the nearest does outside the range, there is no weight.
+    /// The layer at or below the flow's number, and how far (0 to 1) the number lies towards the
+    /// next layer; none where a single layer holds. Outside the range the nearest layer holds.
     fn find<S: Scalar>(&self, flow: Similarity<S>) -> (usize, Option<S>) {
         let last = self.position.len() - 1;
         if last == 0 {
@@ -253,8 +253,8 @@ mod tests {
         }
     }
 
-    /// At a number of the file the slope is that of the side to which the flow moves; it is 0 beyond
-    /// the ends.
+    /// At a number of the file the slope is that of the side to which the flow moves; it is 0
+    /// beyond the ends.
     #[test]
     fn slopes_at_the_numbers_of_a_file() {
         let layers = Layers::try_new(Axis::Mach, vec![0.1, 0.3, 0.7]).unwrap();

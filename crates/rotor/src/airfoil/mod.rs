@@ -1,8 +1,8 @@
 //! Section data: lift and drag coefficients over the full circle of angles of attack, for one or
 //! more Reynolds or Mach numbers, read from files.
 //!
-//! Each file format has its own file here and a row in `formats`. What a format reads becomes curves
-//! in layers (`table`) or laws (`laws`), which check themselves all that they rely on.
+//! Each file format has its own file here and a row in `formats`. What a format reads becomes
+//! curves in layers (`table`) or laws (`laws`), which check themselves all that they rely on.
 
 mod c81;
 mod combi;
@@ -77,8 +77,8 @@ pub enum Lift {
     Table,
     /// Flat plate: cl = 2 pi sin(alpha) (thesis eq. 49).
     TwoPi,
-    /// For a file of laws: one lift slope, by the pitch of the element (thesis 3.5.1). For a table, the
-    /// table.
+    /// For a file of laws: one lift slope, by the pitch of the element (thesis 3.5.1). For a table,
+    /// the table.
     SlopesByReynolds,
 }
 
@@ -117,8 +117,8 @@ enum Data {
 }
 
 impl Airfoil {
-    /// Reads a file. Its format is that of `formats` which detects it first: a CombiTable of laws if
-    /// it begins with `#1`, polars by Reynolds number if its name ends in `.polar`, else C81.
+    /// Reads a file in one of the formats of `formats`: a CombiTable of laws if it begins with
+    /// `#1`, polars by Reynolds number if its name ends in `.polar`, else C81.
     ///
     /// # Errors
     ///
@@ -144,8 +144,8 @@ impl Airfoil {
         }
     }
 
-    /// Lowest and highest Reynolds or Mach number of the file; none if its coefficients do not depend
-    /// on that number. A single Mach number has no range: a compressibility rule takes the
+    /// Lowest and highest Reynolds or Mach number of the file; none if its coefficients do not
+    /// depend on that number. A single Mach number has no range: a compressibility rule takes the
     /// coefficients to others.
     pub fn range(&self, axis: Axis) -> Option<(f64, f64)> {
         let (lift, drag) = match &self.data {
@@ -185,8 +185,8 @@ impl Airfoil {
         self.rule(model).correct(lift, flow.mach)
     }
 
-    /// Factor by which the compressibility rule raises the incompressible lift coefficient `lift` at
-    /// a Mach number (>= 0).
+    /// Factor by which the compressibility rule raises the incompressible lift coefficient `lift`
+    /// at a Mach number (>= 0).
     pub fn compressibility<S: Scalar>(&self, model: &SectionModel, lift: S, mach: S) -> S {
         C(1.0) / self.rule(model).divisor(lift, mach)
     }
@@ -209,11 +209,11 @@ impl Airfoil {
     ///
     /// Outside the data's Reynolds numbers the nearest one's drag is scaled with (Re_data/Re)^n:
     /// Yamauchi & Johnson 1983, "Trends of Reynolds Number Effects on Two-Dimensional Airfoil
-    /// Characteristics for Helicopter Rotor Analyses", NASA TM-84363, n = 0.2 for a turbulent boundary
-    /// layer. Beyond stall the drag is that of pressure and depends little on the boundary layer; there
-    /// only a part of it is scaled, as large as the drag at the stall angle. Two kinds of drag stay as
-    /// they are: that of bodies without lift, which is pressure drag, and that of tables by Mach
-    /// number, which know no Reynolds number.
+    /// Characteristics for Helicopter Rotor Analyses", NASA TM-84363, n = 0.2 for a turbulent
+    /// boundary layer. Beyond stall the drag is that of pressure and depends little on the boundary
+    /// layer; there only a part of it is scaled, as large as the drag at the stall angle. Two kinds
+    /// of drag stay as they are: that of bodies without lift, which is pressure drag, and that of
+    /// tables by Mach number, which know no Reynolds number.
     pub fn drag_coefficient<S: Scalar>(
         &self,
         model: &SectionModel,
@@ -264,9 +264,9 @@ impl Airfoil {
 
     /// The lift as one line: its slope, 1/rad, and its angle of zero lift, rad.
     ///
-    /// For a table it is the line through the lift at -3 and +3 deg of angle of attack (thesis section
-    /// 3.5.1, line A). For laws it is line A, or with `Lift::SlopesByReynolds` line A or B by the
-    /// `pitch` of the element, rad.
+    /// For a table it is the line through the lift at -3 and +3 deg of angle of attack (thesis
+    /// section 3.5.1, line A). For laws it is line A, or with `Lift::SlopesByReynolds` line A or B
+    /// by the `pitch` of the element, rad.
     pub fn lift_line<S: Scalar>(
         &self,
         model: &SectionModel,
@@ -348,7 +348,7 @@ mod tests {
         );
     }
 
-    /// At the end of the file's Reynolds numbers the power law begins on the side that lies beyond it.
+    /// At the end of the file's Reynolds numbers the power law begins on the side beyond the end.
     #[test]
     fn drag_at_the_end_of_the_reynolds_range_changes_by_the_power_law_beyond_it() {
         let text = "polar 1\nreynolds 1e5\n-180 0 0.02\n-10 -1 0.04\n0 0 0.01\n10 1 0.04\n90 0 2\n180 0 0.02\nreynolds 1e6\n-180 0 0.02\n-10 -1 0.04\n0 0 0.01\n10 1 0.04\n90 0 2\n180 0 0.02\n";

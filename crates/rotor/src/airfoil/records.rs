@@ -2,7 +2,7 @@
 //! (10F7.0, continued as 7X,9F7.0), or free where a line does not keep to the columns.
 //!
 //! In columns, numbers may touch each other, and an empty column before the end of the line is 0.
-//! Free numbers stand between blanks, tabs, commas or semicolons. An exponent may be written with D.
+//! Free numbers stand between blanks, tabs, commas or semicolons. A D may begin an exponent.
 
 /// Characters of a column.
 const WIDTH: usize = 7;
@@ -52,7 +52,7 @@ impl<'a> Records<'a> {
         }
     }
 
-    /// The next line with its number, from 1. `wanted` names it in the error at the end of the file.
+    /// The next line with its number, from 1. At the end of the file the error names `wanted`.
     pub fn line(&mut self, wanted: &str) -> Result<(usize, &'a str), Problem> {
         let Some(line) = self.lines.get(self.next) else {
             let last = self.lines.last().map_or(1, |(number, _)| *number);
@@ -135,7 +135,7 @@ fn columns(number: usize, line: &str, has_angle: bool, values: usize) -> Option<
     let text: Vec<char> = line.trim_end().chars().collect();
     let mut numbers = Vec::new();
     for place in 0..=values {
-        // A line that ends before the column has forgotten a number rather than left it blank.
+        // In a line that ends before the column a number is missing, not blank.
         let rest = text.get(place * WIDTH..)?;
         let field: String = rest.iter().take(WIDTH).collect();
         let is_blank = field.trim().is_empty();

@@ -80,7 +80,7 @@ pub fn solve<S: Scalar>(
 ) -> Result<ClosedForm<S>, RootError> {
     let none = S::zero();
     if rotation.value() < STANDSTILL {
-        // Angles are small only against the flow of rotation. At standstill this theory has no load.
+        // Inflow angles are small only if the rotor turns. At standstill the theory has no load.
         return Ok(ClosedForm {
             load: SectionLoad::none(),
             induced: none,

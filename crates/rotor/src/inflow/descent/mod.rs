@@ -117,10 +117,10 @@ pub enum FlowState {
 }
 
 impl FlowState {
-    /// The flow state by Johnson's boundary (2005, NASA/TP-2005-213477): inside the boundary it is the
-    /// vortex ring, below it the turbulent wake, down to the end of the model (V_c/v_h = -2 in axial
-    /// flow), and below that the windmill brake. In fast edgewise flow, where there is no boundary,
-    /// the direction of the air through the disc decides.
+    /// The flow state by Johnson's boundary (2005, NASA/TP-2005-213477): inside the boundary it is
+    /// the vortex ring, below it the turbulent wake, down to the end of the model (V_c/v_h = -2 in
+    /// axial flow), and below that the windmill brake. In fast edgewise flow, where there is no
+    /// boundary, the direction of the air through the disc decides.
     ///
     /// * `edgewise`: flow along the disc, >= 0, m/s
     /// * `climb`: flow down through the disc, m/s
