@@ -273,11 +273,11 @@ impl Airfoil {
         pitch: f64,
         flow: Similarity<S>,
     ) -> (S, S) {
-        let none = S::zero();
+        let zero = S::zero();
         let lift = match model.lift {
-            Lift::TwoPi => return (S::constant(2.0 * PI), none),
+            Lift::TwoPi => return (S::constant(2.0 * PI), zero),
             Lift::Table | Lift::SlopesByReynolds => match &self.data {
-                Data::Laws(laws) => return (laws.slope(model.line(pitch), flow), none),
+                Data::Laws(laws) => return (laws.slope(model.line(pitch), flow), zero),
                 Data::Tables { lift, .. } => lift,
             },
         };
@@ -286,7 +286,7 @@ impl Airfoil {
         let (low, high) = (at(-edge), at(edge));
         let slope = (high - low) / (2.0 * edge);
         if slope.value() == 0.0 {
-            return (none, none);
+            return (zero, zero);
         }
         (slope, C(-0.5) * (high + low) / slope)
     }

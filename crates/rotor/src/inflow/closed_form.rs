@@ -78,13 +78,13 @@ pub fn solve<S: Scalar>(
     rotation: S,
     climb: S,
 ) -> Result<ClosedForm<S>, RootError> {
-    let none = S::zero();
+    let zero = S::zero();
     if rotation.value() < STANDSTILL {
         // Inflow angles are small only if the rotor turns. At standstill the theory has no load.
         return Ok(ClosedForm {
             load: SectionLoad::none(),
-            induced: none,
-            mean_induced: none,
+            induced: zero,
+            mean_induced: zero,
         });
     }
     let flow = element.similarity(rotation);
@@ -96,7 +96,7 @@ pub fn solve<S: Scalar>(
             .section
             .mixed(|airfoil| line(airfoil).0 * line(airfoil).1);
         let zero_lift = if slope.value() == 0.0 {
-            none
+            zero
         } else {
             moment / slope
         };
