@@ -147,13 +147,13 @@ fn ratio<S: Scalar>(edgewise: S, climb: S) -> S {
     };
     let n = at(upper, THROUGH_N, N);
     let x = at(lower, THROUGH_X, X);
-    let nothing = Knot {
+    let begin = Knot {
         at: S::constant(D),
         value: S::zero(),
         slope: S::zero(),
     };
     let more = if climb.value() >= upper.value() {
-        hermite(&n, &nothing, climb)
+        hermite(&n, &begin, climb)
     } else if climb.value() >= lower.value() {
         hermite(&x, &n, climb)
     } else {

@@ -94,7 +94,7 @@ impl Descent {
             Self::Measured | Self::Johnson => momentum(),
         };
         // In descent momentum theory can give a negative slope, which has no meaning: the wake
-        // carries away nothing at the least.
+        // carries nothing away at the least.
         MassFlow {
             speed,
             slope: slope.at_least(0.0),
@@ -110,7 +110,7 @@ pub enum FlowState {
     Normal,
     /// Inside the boundary of Johnson's unstable region.
     VortexRing,
-    /// Between the vortex ring and the windmill, the air swept along.
+    /// Between the vortex ring and the windmill brake state.
     TurbulentWake,
     /// The air passes through the disc with the thrust and drives the rotor.
     WindmillBrake,
