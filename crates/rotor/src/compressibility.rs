@@ -40,8 +40,8 @@ impl Compressibility {
         }
     }
 
-    /// The number > 0 by which a rule divides the incompressible lift coefficient `lift` (any value)
-    /// at the Mach number `mach` (>= 0, held above 0.9):
+    /// The number > 0 by which a rule divides the incompressible lift coefficient `lift` (any
+    /// value) at the Mach number `mach` (>= 0, held above 0.9):
     ///
     /// * Prandtl & Glauert: beta = sqrt(1 - M^2)
     /// * Karman & Tsien: beta + M^2/(1 + beta) cl/2

@@ -21,12 +21,12 @@ pub enum Use {
     Slopes,
 }
 
-/// The place where `residual` is 0, searched from `start`. All unknowns and residuals are of order 1.
-/// None if the search fails within the method's bounds.
+/// The place where `residual` is 0, searched from `start`; none if the search fails within the
+/// method's bounds. All unknowns and residuals are of the order of 1.
 ///
 /// The slopes are differences; from step to step Broyden's formula (1965, Math. Comp. 19, p. 577)
-/// corrects them, for as long as each step leaves at most a fifth of the residual. Steps that do not
-/// come closer are halved. The search ends where a whole step is smaller than `tolerance`.
+/// corrects them, for as long as each step leaves at most a fifth of the residual. Steps that do
+/// not come closer are halved. The search ends where a whole step is smaller than `tolerance`.
 ///
 /// # Errors
 ///

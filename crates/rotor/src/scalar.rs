@@ -202,9 +202,9 @@ impl Scalar for f64 {
     }
 }
 
-/// A function of `x` from its value and slope there. An `x` that does not change gives a result that
-/// does not change, even where the slope is infinite; so does a slope of 0, even where the change is
-/// infinite.
+/// A function of `x` from its value and slope there. An `x` that does not change gives a result
+/// that does not change, even where the slope is infinite; so does a slope of 0, even where the
+/// change is infinite.
 fn chain(x: Dual64, value: f64, slope: f64) -> Dual64 {
     let is_still = x.eps == 0.0 || slope == 0.0;
     let change = if is_still { 0.0 } else { slope * x.eps };
@@ -283,8 +283,8 @@ impl Scalar for Dual64 {
         direction.map(|(cos, sin)| (Self::from_re(cos), Self::from_re(sin)))
     }
     fn at_root(place: f64, mut residual: impl FnMut(Self) -> Self) -> Self {
-        // The change of the residual if the root moves by `change`. It is linear in `change`, except
-        // where corners meet at the root.
+        // Change of the residual if the root moves by `change`. It is linear in `change`,
+        // except where corners meet at the root.
         let mut surplus = |change: f64| residual(Self::new(place, change)).eps;
         let still = surplus(0.0);
         if still == 0.0 {

@@ -2,7 +2,8 @@
 //!
 //! A tip loss model acts in one of three ways, and each has a function here: as Prandtl's factor F
 //! ([`TipLoss::factor`]), by ending the lift at a radius that the blade's shape gives
-//! ([`TipLoss::fixed_end`]), or at a radius that depends on the thrust ([`TipLoss::end_at_thrust`]).
+//! ([`TipLoss::fixed_end`]), or at a radius that depends on the thrust
+//! ([`TipLoss::end_at_thrust`]).
 
 use super::{
     geometry::Geometry,
@@ -18,7 +19,8 @@ pub enum TipLoss {
     /// Prandtl 1919 (appendix to Betz, "Schraubenpropeller mit geringstem Energieverlust"), with
     /// the local inflow angle as Glauert 1935 (Airplane Propellers, ch. VII, eq. 5.7) writes it.
     Prandtl,
-    /// Prandtl's factor for the tip times that for the root, as Ning 2014 (Wind Energy 17, p. 1327) writes it.
+    /// Prandtl's factor for the tip times that for the root, as Ning 2014 (Wind Energy 17, p. 1327)
+    /// writes it.
     PrandtlTipAndRoot,
     /// Lift ends half a tip chord before the tip, B = 1 - c/(2R): Wheatley 1934, NACA Rep. 487,
     /// p. 5; Gessow & Myers 1952, "Aerodynamics of the Helicopter"; thesis eq. (96).

@@ -8,24 +8,34 @@
 //! alpha  c(M1)  c(M2)  ...                    10F7.0, continued as 7X,9F7.0
 //! ```
 //!
-//! Angles run from -180 to 180 deg; the values at the two ends need not agree, as they do not in many
-//! a published table. The moment table is not used and need not be complete or there.
+//! Angles run from -180 to 180 deg. The values at the two ends may differ, as they do in many
+//! published tables. The moment table is not used; it may be incomplete or missing.
 //!
-//! Files that people have edited: a line that does not keep to the columns is read as free numbers (see
-//! `records`); the counts may follow the name anywhere in the first line, six or, without a
-//! moment table, four; blank lines do not count.
+//! Files that people have edited: a line that does not keep to the columns is read as free numbers
+//! (see `records`). The counts may follow the name anywhere in the first line; without a moment
+//! table four counts will do in place of six. Blank lines do not count.
 
 use super::{
-    Airfoil, AirfoilError, Axis, Curve, Data, Table,
-    records::{Layout, Problem, Records, words},
+    Airfoil, AirfoilError, Axis, Data, Layers, Table,
+    curve::{Coefficient, Curve, CurveProblem},
+    formats::{Format, has_extension},
+    records::{Layout, Number, Problem, Records, words},
 };
 
-/// Where the counts begin, and how many of them are needed.
-const COUNTS_COLUMN: usize = 30;
-const NEEDED_COUNTS: usize = 4;
-const COUNTS: usize = 6;
+/// A file is in this format if its name ends in `.c81`.
+pub const FORMAT: Format = Format {
+    detects: |path, _| has_extension(path, "c81"),
+    parse,
+};
 
-/// More Mach numbers or angles are those of no table.
+/// Number of characters before the counts.
+const COUNTS_COLUMN: usize = 30;
+/// Number of counts: ML, NL, MD, ND, MM and NM.
+const COUNTS: usize = 6;
+/// Number of counts that are needed: those of lift and drag.
+const NEEDED_COUNTS: usize = 4;
+
+/// Maximum number of Mach numbers or of angles; no table has more.
 const MAX_COUNT: usize = 999;
 
 /// The first line.
@@ -52,14 +62,14 @@ fn read(text: &str) -> Result<Airfoil, Problem> {
     let header = header(first).ok_or_else(|| {
         let field: String = first.chars().skip(COUNTS_COLUMN).take(2).collect();
         let problem = format!(
-            "`{}` is no count; columns 31-42 hold ML, NL, MD, ND, MM and NM in two digits each, or the line ends with these numbers between blanks",
+            "`{}` is not a count; columns 31-42 hold ML, NL, MD, ND, MM and NM in two digits each, or the line ends with these numbers between blanks",
             field.trim()
         );
         (line, COUNTS_COLUMN + 1, problem)
     })?;
     let [lift_machs, lift_angles, drag_machs, drag_angles] = header.counts;
-    let lift = table(&mut records, "lift", lift_machs, lift_angles)?;
-    let drag = table(&mut records, "drag", drag_machs, drag_angles)?;
+    let lift = table(&mut records, Coefficient::Lift, lift_machs, lift_angles)?;
+    let drag = table(&mut records, Coefficient::Drag, drag_machs, drag_angles)?;
     Ok(Airfoil {
         name: header.name,
         data: Data::Tables { lift, drag },
@@ -130,55 +140,53 @@ fn free_header(line: &str) -> Option<Header> {
     })
 }
 
-fn table(records: &mut Records, name: &str, machs: usize, angles: usize) -> Result<Table, Problem> {
+fn table(
+    records: &mut Records,
+    coefficient: Coefficient,
+    machs: usize,
+    angles: usize,
+) -> Result<Table, Problem> {
+    let name = match coefficient {
+        Coefficient::Lift => "lift",
+        Coefficient::Drag => "drag",
+    };
+    let at = |number: &Number, problem: String| (number.line, number.column, problem);
     let numbers = records.numbers(Layout {
         has_angle: false,
         values: machs,
         what: &format!("a Mach number of the {name} table"),
     })?;
-    let mut previous = None;
-    for mach in &numbers {
-        if mach.value < 0.0 || previous.is_some_and(|p| mach.value <= p) {
-            let problem = format!(
-                "Mach number {}: those of the {name} table must increase and not be negative",
-                mach.value
-            );
-            return Err((mach.line, mach.column, problem));
-        }
-        previous = Some(mach.value);
-    }
-    let what = format!("a value of the {name} table");
-    let mut columns = vec![Vec::new(); machs];
-    let mut previous = f64::NEG_INFINITY;
-    for row in 0..angles {
-        let record = records.numbers(Layout {
+    let layers = Layers::try_new(Axis::Mach, numbers.iter().map(|n| n.value).collect())
+        .map_err(|error| at(&numbers[error.layer], format!("{name} table: {error}")))?;
+    let mut rows = Vec::new();
+    for _ in 0..angles {
+        rows.push(records.numbers(Layout {
             has_angle: true,
             values: machs,
-            what: &what,
-        })?;
-        let Some((angle, values)) = record.split_first() else {
-            continue; // a record is never empty
-        };
-        let alpha = angle.value;
-        let ends_wrong = (row == 0 && alpha != -180.0) || (row + 1 == angles && alpha != 180.0);
-        if alpha <= previous || ends_wrong {
-            let problem = format!(
-                "angle {alpha}: the angles of the {name} table must increase from -180 to 180 deg, {angles} of them by the first line"
-            );
-            return Err((angle.line, angle.column, problem));
-        }
-        previous = alpha;
-        for (column, number) in columns.iter_mut().zip(values) {
-            if name == "drag" && number.value < 0.0 {
-                let problem = format!("{}: {what} must not be below 0", number.value);
-                return Err((number.line, number.column, problem));
-            }
-            column.push((alpha, number.value));
-        }
+            what: &format!("a value of the {name} table"),
+        })?);
     }
-    let curves = columns.iter().map(|points| Curve::from_degrees(points));
-    let machs = numbers.iter().map(|number| number.value);
-    Ok(Table::new(Axis::Mach, machs.zip(curves).collect()))
+    Table::try_new(layers, |mach| {
+        let points: Vec<(f64, f64)> = rows
+            .iter()
+            .map(|row| (row[0].value, row[mach + 1].value))
+            .collect();
+        Curve::try_from_degrees(coefficient, &points).map_err(|error| {
+            let row = &rows[error.point];
+            let number = match error.problem {
+                CurveProblem::Begin(_)
+                | CurveProblem::End(_)
+                | CurveProblem::NotIncreasing { .. }
+                | CurveProblem::Empty
+                | CurveProblem::TooMany => &row[0],
+                CurveProblem::NotFinite { .. }
+                | CurveProblem::NegativeDrag(_)
+                | CurveProblem::TooSteep { .. } => &row[mach + 1],
+            };
+            let problem = format!("{name} table of {angles} angles by the first line: {error}");
+            at(number, problem)
+        })
+    })
 }
 
 #[cfg(test)]
@@ -252,14 +260,19 @@ Test section                   2 4 1 3 1 2
     #[test]
     fn errors_name_file_line_column_and_problem() {
         for (from, to, place, part) in [
-            (" 2 4 1 3", " x 4 1 3", "line 1, column 31", "no count"),
+            (" 2 4 1 3", " x 4 1 3", "line 1, column 31", "not a count"),
             (
                 "   0.80",
                 "   o.80",
                 "line 2, column 18",
                 "a Mach number of the lift table",
             ),
-            ("   0.80", "   0.00", "line 2, column 18", "must increase"),
+            (
+                "   0.80",
+                "   0.00",
+                "line 2, column 18",
+                "above the one before",
+            ),
             (
                 "   0.00   0.10",
                 "   0.00   .1.0",
@@ -270,13 +283,13 @@ Test section                   2 4 1 3 1 2
                 "-180.00   0.00",
                 "-170.00   0.00",
                 "line 3, column 1",
-                "from -180 to 180",
+                "must be -180 deg",
             ),
             (
                 "   0.00   0.01",
                 "   0.00  -0.01",
                 "line 9, column 10",
-                "must not be below 0",
+                "must not be negative",
             ),
             (" 180.00   0.03\n", "", "line 9", "the file ends before"),
         ] {
@@ -441,7 +454,7 @@ Test section                   2 4 1 3 1 2
                 " 2 4 1 3 1 2",
                 " 2 3 1 3 1 2",
                 "line 5, column 3",
-                "3 of them by the first line",
+                "3 angles by the first line",
             ),
             (
                 " 2 4 1 3 1 2",

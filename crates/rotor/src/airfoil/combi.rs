@@ -1,5 +1,5 @@
-//! Text files of Modelica's CombiTable blocks (Modelica Standard Library, Modelica.Blocks.Tables), with
-//! one table of section laws by Reynolds number.
+//! Text files of Modelica's CombiTable blocks (Modelica Standard Library, Modelica.Blocks.Tables),
+//! with one table of section laws by Reynolds number.
 //!
 //! ```text
 //! #1
@@ -10,32 +10,32 @@
 //! 1e6      6.3     4.6             0.297        0.0096  0.0   0.36
 //! ```
 //!
-//! As in Modelica, numbers are separated by blanks, tabs, commas or semicolons, a row may go on in the next
-//! line, and a file may hold several tables: then the one with the name `airfoil` is read. The
-//! columns are those of `CombiTable1D` with the Reynolds number as its input; one to seven coefficients
-//! of the drag polynomial may stand at the end. What they mean: see `laws`.
+//! As in Modelica, numbers are separated by blanks, tabs, commas or semicolons, and a row may go on
+//! in the next line. Of several tables in a file, the one with the name `airfoil` is read. The
+//! columns are those of `CombiTable1D` with the Reynolds number as its input; the last one to seven
+//! columns are the coefficients of the drag polynomial. `laws` says what the numbers mean.
 
 use super::{
     Airfoil, AirfoilError, Data,
-    laws::{Law, Laws},
+    formats::Format,
+    laws::{Coefficients, Law, LawError, Laws},
     records::{Number, Problem, words},
 };
 
-/// Of several tables, the one that is read.
+/// A file is in this format if its text begins with `#1`.
+pub const FORMAT: Format = Format {
+    detects: |_, text| is_combi(text),
+    parse,
+};
+
+/// The table to read if the file holds several.
 const NAME: &str = "airfoil";
 
 /// Columns without the coefficients of the drag polynomial.
 const COLUMNS: usize = 4;
+
+/// Maximum number of coefficients of the drag polynomial.
 const MAX_DRAG_COEFFICIENTS: usize = 7;
-
-/// Steeper lift (1/rad) is that of no section.
-const MAX_SLOPE: f64 = 20.0;
-
-/// Later stall (deg) is that of no section in steady flow.
-const MAX_STALL: f64 = 45.0;
-
-/// Angles up to stall at which the drag polynomial is tried.
-const TRIED: usize = 200;
 
 /// A table as its file has it.
 #[derive(Debug)]
@@ -43,12 +43,13 @@ struct Matrix {
     name: String,
     rows: usize,
     columns: usize,
+    /// The line of the file that begins it.
     line: usize,
     numbers: Vec<Number>,
 }
 
 /// Whether a text begins as a CombiTable file does.
-pub fn is_combi(text: &str) -> bool {
+fn is_combi(text: &str) -> bool {
     let rest = text.strip_prefix("#1");
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(char::is_whitespace))
 }
@@ -118,7 +119,7 @@ fn header(content: &str, line: usize) -> Result<Matrix, Problem> {
     let column = 1 + content.chars().take_while(|c| c.is_whitespace()).count();
     let wrong = || {
         let problem = format!(
-            "`{}` begins no table; write `double name(rows, columns)`",
+            "`{}` does not begin a table; write `double name(rows, columns)`",
             content.trim()
         );
         (line, column, problem)
@@ -215,72 +216,37 @@ fn laws(matrix: &Matrix) -> Result<Laws, Problem> {
         );
         return Err((matrix.line, 1, problem));
     }
-    let mut laws: Vec<Law> = Vec::new();
-    for row in matrix.numbers.chunks_exact(matrix.columns) {
-        laws.push(law(row, laws.last())?);
-    }
-    Ok(Laws::new(laws))
+    let rows = || matrix.numbers.chunks_exact(matrix.columns);
+    let laws = rows().map(law).collect::<Result<_, Problem>>()?;
+    Laws::try_new(laws).map_err(|error| {
+        // The Reynolds number of the wrong row.
+        let place = rows().nth(error.layer).and_then(|row| row.first());
+        let (line, column) = place.map_or((matrix.line, 1), |n| (n.line, n.column));
+        (line, column, error.to_string())
+    })
 }
 
-fn law(row: &[Number], before: Option<&Law>) -> Result<Law, Problem> {
-    let refuse = |number: &Number, problem: String| Err((number.line, number.column, problem));
+fn law(row: &[Number]) -> Result<Law, Problem> {
     let [reynolds, slope_a, slope_c, stall, drag @ ..] = row else {
         return Err((1, 1, "a row has too few columns".into()));
     };
-    if reynolds.value < 1.0 {
-        let problem = format!("Reynolds number {} must be 1 or more", reynolds.value);
-        return refuse(reynolds, problem);
-    }
-    if let Some(before) = before
-        && reynolds.value <= before.reynolds
-    {
-        let problem = format!(
-            "Reynolds number {} must be above that of the row before ({})",
-            reynolds.value, before.reynolds
-        );
-        return refuse(reynolds, problem);
-    }
-    if !(slope_a.value > 0.0 && slope_a.value <= MAX_SLOPE) {
-        let problem = format!(
-            "lift slope A = {} must be above 0 and at most {MAX_SLOPE} per rad",
-            slope_a.value
-        );
-        return refuse(slope_a, problem);
-    }
-    if !(0.0..=MAX_SLOPE).contains(&slope_c.value) {
-        let problem = format!(
-            "lift slope C = {} must be 0 to {MAX_SLOPE} per rad",
-            slope_c.value
-        );
-        return refuse(slope_c, problem);
-    }
-    if !(stall.value > 0.0 && stall.value <= MAX_STALL.to_radians()) {
-        let problem = format!(
-            "stall angle {} must be above 0 and at most {:.3} rad ({MAX_STALL} deg); angles are in rad",
-            stall.value,
-            MAX_STALL.to_radians()
-        );
-        return refuse(stall, problem);
-    }
-    let law = Law {
+    let polynomial: Vec<f64> = drag.iter().map(|d| d.value).collect();
+    let numbers = Coefficients {
         reynolds: reynolds.value,
         slope_a: slope_a.value,
         slope_c: slope_c.value,
         stall: stall.value,
-        drag: drag.iter().map(|d| d.value).collect(),
+        drag: &polynomial,
     };
-    for i in 0..=TRIED {
-        let alpha = law.stall * i as f64 / TRIED as f64;
-        let value: f64 = law.attached_drag(alpha);
-        if !(value >= 0.0 && value.is_finite()) {
-            let problem = format!(
-                "the drag polynomial gives {value} at {:.2} deg; from 0 to the stall angle it must not be negative",
-                alpha.to_degrees()
-            );
-            return refuse(&drag[0], problem);
-        }
-    }
-    Ok(law)
+    Law::try_new(numbers).map_err(|error| {
+        let place = match error {
+            LawError::SlopeA(_) => slope_a,
+            LawError::SlopeC(_) => slope_c,
+            LawError::Stall(_) => stall,
+            LawError::Drag { .. } => drag.first().unwrap_or(stall),
+        };
+        (place.line, place.column, error.to_string())
+    })
 }
 
 #[cfg(test)]
@@ -351,8 +317,18 @@ double airfoil(2, 7)  # rows, columns
                 "line 3, column 1",
                 "write `double name(rows, columns)`",
             ),
-            ("(2, 7)", "(2; 7)", "line 3, column 1", "begins no table"),
-            ("(2, 7)", "(0, 7)", "line 3, column 1", "begins no table"),
+            (
+                "(2, 7)",
+                "(2; 7)",
+                "line 3, column 1",
+                "does not begin a table",
+            ),
+            (
+                "(2, 7)",
+                "(0, 7)",
+                "line 3, column 1",
+                "does not begin a table",
+            ),
             (
                 "(2, 7)",
                 "(1, 7)",
@@ -390,7 +366,7 @@ double airfoil(2, 7)  # rows, columns
                 "1e6",
                 "2e4",
                 "line 5, column 1",
-                "above that of the row before (20000)",
+                "above the one before (20000)",
             ),
             ("1.1", "-1.1", "line 4, column 19", "must not be negative"),
         ] {

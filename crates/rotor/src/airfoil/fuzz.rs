@@ -1,10 +1,11 @@
-//! Whatever a file holds, its readers answer with an airfoil or an error, and never panic.
+//! The readers answer any file with an airfoil or an error, and never panic.
 
-use super::{Airfoil, AirfoilError, Lift, SectionModel, Similarity, c81, combi, polar};
+use super::{Lift, SectionModel, Similarity, formats::FORMATS};
 use crate::compressibility::Compressibility;
 use proptest::{prelude::*, sample::Index};
 
-const SAMPLES: [&str; 3] = [
+/// A good file of each format.
+const SAMPLES: [&str; FORMATS.len()] = [
     "#1\ndouble airfoil(2, 7)\n2e4 6.2 3.0 0.175 0.032 0 1.1\n1e6 6.3, 4.6; 0.297 0.0096 0 0.36 # x\n",
     "polar 1\nname x\nreynolds 1e5\n-180 0 0.02\n0 0 0.01 # note\n10 1 0.02 -0.1\n180 0 0.02\n",
     "Test section                   1 3 1 3 1 2\n          0.00\n-180.00   0.00\n   0.00   0.10\n 180.00   0.00\n          0.00\n-180.00   0.03\n   0.00   0.01\n 180.00   0.03\n",
@@ -60,12 +61,9 @@ fn damaged() -> impl Strategy<Value = String> {
     })
 }
 
-type Reader = fn(&str, &str) -> Result<Airfoil, AirfoilError>;
-
 fn check(text: &str) {
-    let readers: [Reader; 3] = [c81::parse, polar::parse, combi::parse];
-    for reader in readers {
-        let Ok(airfoil) = reader(text, "x") else {
+    for format in &FORMATS {
+        let Ok(airfoil) = (format.parse)(text, "x") else {
             continue;
         };
         let model = SectionModel {

@@ -1,5 +1,5 @@
-//! A symmetrical section by simple laws for each Reynolds number: two lift slopes, a stall angle and
-//! a polynomial for the drag, as in the thesis, sections 3.5.1 to 3.5.3.
+//! A symmetrical section by simple laws for each Reynolds number: two lift slopes, a stall angle
+//! and a polynomial for the drag, as in the thesis, sections 3.5.1 to 3.5.3.
 //!
 //! ```text
 //! line A   cl = a alpha                                   from 0 to 3 deg
@@ -9,31 +9,32 @@
 //! drag     cd = d0 + d1 alpha + d2 alpha^2 + ...          eq. (104), from 0 to stall
 //! ```
 //!
-//! The thesis takes one slope for each blade element: A for pitch angles up to 3 deg, B above, because the
-//! angle of attack is not known before the induced velocity, which needs the slope. Its words are "blade
-//! with collective pitch angles up to 3 degrees"; ours is the pitch of the element, collective and twist
-//! without the cyclic part: it does not depend on the radius at which the collective is
-//! counted, and it is the same on blades without twist.
+//! The thesis takes one slope for each blade element: A for pitch angles up to 3 deg, B above. It
+//! cannot take the angle of attack, which is known only after the induced velocity, and that needs
+//! the slope. Its words are "blade with collective pitch angles up to 3 degrees". Ours is the pitch
+//! of the element, collective and twist without the cyclic part: it does not depend on the pitch
+//! reference radius, and it is the same on blades without twist.
 //!
-//! Beyond stall the thesis says nothing. We go on as the shipped polars do: Viterna & Corrigan (1982), NASA
-//! CP-2230, from the stall angle to 90 deg, with the largest drag coefficient 2.01 of a flat plate of
-//! aspect ratio 50,
+//! Beyond stall the thesis says nothing. We go on as the shipped polars do: Viterna & Corrigan
+//! (1982), NASA CP-2230, from the stall angle to 90 deg, with the largest drag coefficient 2.01 of
+//! a flat plate of aspect ratio 50,
 //!
 //! ```text
 //! cl = 2.01/2 sin(2 alpha) + A2 cos(alpha)^2/sin(alpha),   cd = 2.01 sin(alpha)^2 + B2 cos(alpha),
 //! ```
 //!
-//! A2 and B2 such that nothing jumps at stall. Beyond 90 deg, as in NREL's AirfoilPrep, drag is mirrored
-//! about 90 deg, lift is mirrored and times -0.7, and from 180 deg less the stall angle it runs linearly to
-//! 0 at 180 deg. Negative angles are mirrored: lift is odd, drag even.
+//! A2 and B2 such that nothing jumps at stall. Beyond 90 deg, as in NREL's AirfoilPrep, drag is
+//! mirrored about 90 deg; lift is mirrored and multiplied by -0.7, and from 180 deg less the stall
+//! angle it runs linearly to 0 at 180 deg. Negative angles are mirrored: lift is odd, drag even.
 
 use super::{
     Similarity,
-    layers::{Axis, Layers},
+    layers::{Axis, Layers, LayersError},
     table::wrapped,
 };
-use crate::scalar::Scalar;
+use crate::scalar::{C, Scalar};
 use core::f64::consts::{FRAC_PI_2, PI};
+use thiserror::Error;
 
 /// Up to this angle line A holds, rad.
 const EDGE: f64 = 3.0 * PI / 180.0;
@@ -41,10 +42,19 @@ const EDGE: f64 = 3.0 * PI / 180.0;
 /// A pitch that is 3 deg but for rounding counts as 3 deg, rad.
 const ROUNDING: f64 = 1e-12;
 
-/// Largest drag coefficient beyond stall: 1.11 + 0.018 times the aspect ratio 50.
+/// Maximum lift slope, 1/rad; no section has a steeper one.
+const MAX_SLOPE: f64 = 20.0;
+
+/// Maximum stall angle, deg; no section stalls later in steady flow.
+const MAX_STALL: f64 = 45.0;
+
+/// Number of intervals up to stall; the drag polynomial is checked at their ends.
+const CHECKS: usize = 200;
+
+/// Maximum drag coefficient beyond stall: 1.11 + 0.018 times the aspect ratio 50.
 const MAX_DRAG: f64 = 2.01;
 
-/// Lift in reversed flow against that in flow from the front.
+/// Lift in reversed flow over that in flow from the front.
 const REVERSED_LIFT: f64 = -0.7;
 
 /// Which of the lines the lift follows up to stall.
@@ -56,17 +66,60 @@ pub enum Line {
     ByPitch(f64),
 }
 
-/// The laws at one Reynolds number. Per rad, rad.
+/// The laws at one Reynolds number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Law {
+    reynolds: f64,
+    /// Lift slopes of the lines A and C, 1/rad.
+    slope_a: f64,
+    slope_c: f64,
+    /// Above 0, below pi/2, rad.
+    stall: f64,
+    /// d0, d1, d2, ... per rad: the polynomial is not negative from 0 to the stall angle.
+    drag: Vec<f64>,
+}
+
+/// The numbers of a law as its file has them.
+#[derive(Debug, Clone, Copy)]
+pub struct Coefficients<'a> {
+    /// Reynolds number of the chord; `Laws` checks it.
     pub reynolds: f64,
-    /// Lift slopes of the lines A and C.
+    /// Lift slope of line A, above 0 and at most `MAX_SLOPE`, 1/rad.
     pub slope_a: f64,
+    /// Lift slope of line C, 0 to `MAX_SLOPE`, 1/rad.
     pub slope_c: f64,
-    /// Above 0, below pi/2.
+    /// Stall angle, above 0 and at most `MAX_STALL`, rad.
     pub stall: f64,
-    /// d0, d1, d2, ...: not negative from 0 to the stall angle.
-    pub drag: Vec<f64>,
+    /// d0, d1, d2, ... of the drag polynomial in alpha, rad.
+    pub drag: &'a [f64],
+}
+
+/// What is wrong with the numbers of a law.
+#[derive(Debug, Error, Clone, Copy, PartialEq)]
+pub enum LawError {
+    /// Lift slope A out of its range, 1/rad.
+    #[error("lift slope A = {0} must be above 0 and at most {MAX_SLOPE} per rad")]
+    SlopeA(f64),
+    /// Lift slope C out of its range, 1/rad.
+    #[error("lift slope C = {0} must be 0 to {MAX_SLOPE} per rad")]
+    SlopeC(f64),
+    /// Stall angle out of its range, rad.
+    #[error(
+        "stall angle {0} must be above 0 and at most {max:.3} rad ({MAX_STALL} deg); angles are in rad",
+        max = MAX_STALL.to_radians()
+    )]
+    Stall(f64),
+    /// The polynomial is negative or not finite at an angle up to stall.
+    #[error(
+        "the drag polynomial gives {value} at {deg:.2} deg; from 0 to the stall angle it must not be negative",
+        deg = alpha.to_degrees()
+    )]
+    Drag {
+        /// The polynomial there.
+        value: f64,
+        /// rad.
+        alpha: f64,
+    },
 }
 
 /// The laws at all Reynolds numbers of a file.
@@ -81,22 +134,67 @@ pub struct Laws {
 impl Line {
     /// Slope of the line through the origin, 1/rad.
     fn slope(self, law: &Law) -> f64 {
-        match self {
-            Self::ByPitch(pitch) if pitch.abs() > EDGE + ROUNDING => {
-                0.5 * (law.slope_a + law.slope_c)
-            }
-            _ => law.slope_a,
+        let mean_of_a_and_d = match self {
+            Self::Broken => false,
+            Self::ByPitch(pitch) => pitch.abs() > EDGE + ROUNDING,
+        };
+        if mean_of_a_and_d {
+            0.5 * (law.slope_a + law.slope_c)
+        } else {
+            law.slope_a
         }
     }
 }
 
 impl Law {
+    /// The law with these numbers.
+    ///
+    /// # Errors
+    ///
+    /// The first number out of its range; the drag polynomial is checked at 201 angles from 0 to
+    /// the stall angle.
+    pub fn try_new(numbers: Coefficients) -> Result<Self, LawError> {
+        let Coefficients {
+            reynolds,
+            slope_a,
+            slope_c,
+            stall,
+            drag,
+        } = numbers;
+        if !(slope_a > 0.0 && slope_a <= MAX_SLOPE) {
+            return Err(LawError::SlopeA(slope_a));
+        }
+        if !(0.0..=MAX_SLOPE).contains(&slope_c) {
+            return Err(LawError::SlopeC(slope_c));
+        }
+        if !(stall > 0.0 && stall <= MAX_STALL.to_radians()) {
+            return Err(LawError::Stall(stall));
+        }
+        let law = Self {
+            reynolds,
+            slope_a,
+            slope_c,
+            stall,
+            drag: drag.to_vec(),
+        };
+        for i in 0..=CHECKS {
+            let alpha = stall * i as f64 / CHECKS as f64;
+            let value: f64 = law.attached_drag(alpha);
+            if !(value >= 0.0 && value.is_finite()) {
+                return Err(LawError::Drag { value, alpha });
+            }
+        }
+        Ok(law)
+    }
+
     /// Lift coefficient up to stall at an angle >= 0.
     fn attached<S: Scalar>(&self, line: Line, alpha: S) -> S {
-        if line == Line::Broken && alpha.is_above(EDGE) {
-            return (alpha - EDGE) * self.slope_c + self.slope_a * EDGE;
+        match line {
+            Line::Broken if alpha.is_above(EDGE) => {
+                C(self.slope_a * EDGE) + C(self.slope_c) * (alpha - EDGE)
+            }
+            Line::Broken | Line::ByPitch(_) => C(line.slope(self)) * alpha,
         }
-        alpha * line.slope(self)
     }
 
     fn lift<S: Scalar>(&self, line: Line, alpha: S) -> S {
@@ -110,13 +208,13 @@ impl Law {
         if !alpha.is_above(FRAC_PI_2) {
             return self.stalled_lift(at_stall, alpha);
         }
-        let mirrored = S::constant(PI) - alpha;
+        let mirrored = C(PI) - alpha;
         let lift = if !mirrored.is_below(self.stall) {
             self.stalled_lift(at_stall, mirrored)
         } else {
-            mirrored * (at_stall / self.stall)
+            C(at_stall / self.stall) * mirrored
         };
-        lift * REVERSED_LIFT
+        C(REVERSED_LIFT) * lift
     }
 
     /// Between the stall angle and 90 deg.
@@ -125,20 +223,19 @@ impl Law {
         let a2 =
             (at_stall - MAX_DRAG * sin_stall * cos_stall) * sin_stall / (cos_stall * cos_stall);
         let (sin, cos) = (alpha.sin(), alpha.cos());
-        sin * cos * MAX_DRAG + cos * cos / sin * a2
+        C(MAX_DRAG) * (sin * cos) + C(a2) * (cos * cos / sin)
     }
 
-    /// Drag coefficient up to stall at an angle >= 0.
-    pub fn attached_drag<S: Scalar>(&self, alpha: S) -> S {
-        let zero = S::constant(0.0);
-        let sum = self.drag.iter().rev();
-        sum.fold(zero, |higher, coefficient| higher * alpha + *coefficient)
+    /// Drag coefficient up to stall at an angle >= 0: Horner's scheme.
+    fn attached_drag<S: Scalar>(&self, alpha: S) -> S {
+        let coefficients = self.drag.iter().rev();
+        coefficients.fold(S::zero(), |higher, d| C(*d) + higher * alpha)
     }
 
     fn drag<S: Scalar>(&self, alpha: S) -> S {
         let alpha = alpha.abs();
         let folded = if alpha.is_above(FRAC_PI_2) {
-            S::constant(PI) - alpha
+            C(PI) - alpha
         } else {
             alpha
         };
@@ -149,20 +246,25 @@ impl Law {
         let at_stall = self.attached_drag(self.stall);
         let b2 = (at_stall - MAX_DRAG * sin_stall * sin_stall) / cos_stall;
         let sin = folded.sin();
-        sin * sin * MAX_DRAG + folded.cos() * b2
+        C(MAX_DRAG) * (sin * sin) + C(b2) * folded.cos()
     }
 }
 
 impl Laws {
-    /// At least one, Reynolds numbers strictly increasing.
-    pub fn new(law: Vec<Law>) -> Self {
+    /// The laws of a file.
+    ///
+    /// # Errors
+    ///
+    /// There must be one or more, with finite and strictly increasing Reynolds numbers from 1 on.
+    pub fn try_new(law: Vec<Law>) -> Result<Self, LayersError> {
         let numbers = law.iter().map(|l| l.reynolds).collect();
-        Self {
-            layers: Layers::new(Axis::Reynolds, numbers),
+        Ok(Self {
+            layers: Layers::try_new(Axis::Reynolds, numbers)?,
             law,
-        }
+        })
     }
 
+    /// The Reynolds numbers of the laws.
     pub fn layers(&self) -> &Layers {
         &self.layers
     }
@@ -185,7 +287,7 @@ impl Laws {
             .mixed(flow, |i| S::constant(line.slope(&self.law[i])))
     }
 
-    /// rad, > 0.
+    /// Stall angle, > 0, rad.
     pub fn stall<S: Scalar>(&self, flow: Similarity<S>) -> S {
         self.layers.mixed(flow, |i| S::constant(self.law[i].stall))
     }
@@ -196,14 +298,17 @@ mod tests {
     use super::*;
 
     fn laws() -> Laws {
-        let law = |reynolds: f64, scale: f64| Law {
-            reynolds,
-            slope_a: 6.0 * scale,
-            slope_c: 4.0 * scale,
-            stall: scale * 0.2,
-            drag: vec![0.01, 0.0, 0.5],
+        let law = |reynolds: f64, scale: f64| {
+            let numbers = Coefficients {
+                reynolds,
+                slope_a: 6.0 * scale,
+                slope_c: 4.0 * scale,
+                stall: scale * 0.2,
+                drag: &[0.01, 0.0, 0.5],
+            };
+            Law::try_new(numbers).unwrap()
         };
-        Laws::new(vec![law(1e5, 1.0), law(1e6, 1.1)])
+        Laws::try_new(vec![law(1e5, 1.0), law(1e6, 1.1)]).unwrap()
     }
 
     fn flow(reynolds: f64) -> Similarity<f64> {
@@ -218,7 +323,7 @@ mod tests {
     }
 
     #[test]
-    fn line_a_up_to_3_deg_of_pitch_and_above_the_mean_of_a_and_c_whatever_the_angle_of_attack() {
+    fn line_a_up_to_3_deg_of_pitch_and_above_the_mean_of_a_and_d_at_any_angle_of_attack() {
         let degrees = |x: f64| x.to_radians();
         for pitch in [-3.0, 0.0, 2.9, 3.0] {
             let line = Line::ByPitch(degrees(pitch));

@@ -2,54 +2,143 @@
 
 use super::Similarity;
 use crate::scalar::Scalar;
+use std::fmt;
+use thiserror::Error;
 
 /// What the layers of a table are numbered by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
+    /// Reynolds number of the chord, >= 1.
     Reynolds,
+    /// Mach number, >= 0.
     Mach,
 }
 
-/// Reynolds or Mach numbers, at least one, strictly increasing.
+impl Axis {
+    /// Smallest number that a file may have.
+    fn min(self) -> f64 {
+        match self {
+            Self::Reynolds => 1.0,
+            Self::Mach => 0.0,
+        }
+    }
+}
+
+impl fmt::Display for Axis {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Reynolds => "Reynolds number",
+            Self::Mach => "Mach number",
+        })
+    }
+}
+
+/// Reynolds or Mach numbers: one or more, finite, strictly increasing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layers {
     axis: Axis,
     number: Vec<f64>,
-    /// ln Re or Mach number.
+    /// ln Re or Mach number, strictly increasing.
     position: Vec<f64>,
 }
 
+/// Why numbers do not make layers.
+#[derive(Debug, Error, Clone, Copy, PartialEq)]
+#[error("{problem}")]
+pub struct LayersError {
+    /// Index of the first wrong number; 0 if there are none.
+    pub layer: usize,
+    /// What is wrong with it.
+    pub problem: LayersProblem,
+}
+
+/// What is wrong with a Reynolds or Mach number.
+#[derive(Debug, Error, Clone, Copy, PartialEq)]
+pub enum LayersProblem {
+    /// No numbers at all.
+    #[error("there is no {0}; one or more are needed")]
+    Empty(Axis),
+    /// NaN, infinite, or too small.
+    #[error("{axis} {number} must be {} or more", axis.min())]
+    OutOfRange {
+        /// What the number is.
+        axis: Axis,
+        /// The number.
+        number: f64,
+    },
+    /// Numbers increase, by more than rounding.
+    #[error("{axis} {number} must be above the one before ({before})")]
+    NotIncreasing {
+        /// What the number is.
+        axis: Axis,
+        /// The number.
+        number: f64,
+        /// The number before it.
+        before: f64,
+    },
+}
+
 impl Layers {
-    pub fn new(axis: Axis, number: Vec<f64>) -> Self {
-        let position = match axis {
-            Axis::Reynolds => number.iter().map(|n| Scalar::ln(*n)).collect(),
-            Axis::Mach => number.clone(),
-        };
-        Self {
-            axis,
-            number,
-            position,
+    /// Layers at the given numbers.
+    ///
+    /// # Errors
+    ///
+    /// The first wrong number: there must be one or more, finite, strictly increasing, Reynolds
+    /// numbers from 1 and Mach numbers from 0 on.
+    pub fn try_new(axis: Axis, number: Vec<f64>) -> Result<Self, LayersError> {
+        let fail = |layer: usize, problem: LayersProblem| Err(LayersError { layer, problem });
+        if number.is_empty() {
+            return fail(0, LayersProblem::Empty(axis));
         }
+        let numbers = number;
+        let mut position: Vec<f64> = Vec::with_capacity(numbers.len());
+        for (layer, &number) in numbers.iter().enumerate() {
+            if !(number.is_finite() && number >= axis.min()) {
+                return fail(layer, LayersProblem::OutOfRange { axis, number });
+            }
+            let next = match axis {
+                Axis::Reynolds => Scalar::ln(number),
+                Axis::Mach => number,
+            };
+            if position.last().is_some_and(|before| next <= *before) {
+                let problem = LayersProblem::NotIncreasing {
+                    axis,
+                    number,
+                    before: numbers[layer - 1],
+                };
+                return fail(layer, problem);
+            }
+            position.push(next);
+        }
+        Ok(Self {
+            axis,
+            number: numbers,
+            position,
+        })
+    }
+
+    /// Number of layers, 1 or more.
+    pub fn count(&self) -> usize {
+        self.number.len()
     }
 
     /// Lowest and highest number of an axis, if the layers are numbered by it.
     pub fn range(&self, axis: Axis) -> Option<(f64, f64)> {
-        let ends = self
-            .number
-            .first()
-            .copied()
-            .zip(self.number.last().copied());
-        ends.filter(|_| self.axis == axis)
+        let ends = (self.number[0], self.number[self.number.len() - 1]);
+        (self.axis == axis).then_some(ends)
     }
 
-    /// Whether more than one Mach number tells how the coefficients change with it.
+    /// Whether two or more Mach numbers tell how the coefficients change with it.
     pub fn resolves_mach(&self) -> bool {
-        self.axis == Axis::Mach && self.number.len() > 1
+        match self.axis {
+            Axis::Mach => self.number.len() > 1,
+            Axis::Reynolds => false,
+        }
     }
 
     /// The layer at or below the flow's number, and how far (0 to 1) the number lies towards the
-    /// next one; no weight where a single layer holds: outside, the nearest.
-    pub fn find<S: Scalar>(&self, flow: Similarity<S>) -> (usize, Option<S>) {
+    /// next layer; none where a single layer holds. Outside the range the nearest layer holds.
+    fn find<S: Scalar>(&self, flow: Similarity<S>) -> (usize, Option<S>) {
         let last = self.position.len() - 1;
         if last == 0 {
             return (0, None);
@@ -58,7 +147,7 @@ impl Layers {
             Axis::Reynolds => flow.reynolds.at_least(1.0).ln(),
             Axis::Mach => flow.mach,
         };
-        // A flow that is no number has no place among them: it comes from states out of all bounds.
+        // NaN has no place among the numbers; it comes from states that have diverged.
         if number.value().is_nan() || !number.is_above(self.position[0]) {
             return (0, None);
         }
@@ -70,7 +159,8 @@ impl Layers {
         (upper - 1, Some((number - p0) / (p1 - p0)))
     }
 
-    /// Mixes what two neighbouring layers say; linear, and exact at a layer.
+    /// A quantity of each layer, by its index, at the number of a flow: linear between layers, and
+    /// exact at a layer.
     pub fn mixed<S: Scalar>(&self, flow: Similarity<S>, of_layer: impl Fn(usize) -> S) -> S {
         let (layer, weight) = self.find(flow);
         let lower = of_layer(layer);
@@ -92,7 +182,7 @@ mod tests {
 
     #[test]
     fn the_numbers_of_a_file_are_met_exactly_and_beyond_them_the_nearest_holds() {
-        let layers = Layers::new(Axis::Reynolds, vec![2e4, 1.7e5, 1e6]);
+        let layers = Layers::try_new(Axis::Reynolds, vec![2e4, 1.7e5, 1e6]).unwrap();
         for (reynolds, value) in [
             (0.0, 1.0),
             (2e4, 1.0),
@@ -105,16 +195,69 @@ mod tests {
         let half = libm::sqrt(2e4 * 1.7e5);
         assert!((at(&layers, half, 0.0) - 2.0).abs() < 1e-14);
         assert_eq!(at(&layers, f64::NAN, 0.0), 1.0);
-        let layers = Layers::new(Axis::Mach, vec![0.1, 0.3, 0.7]);
+        let layers = Layers::try_new(Axis::Mach, vec![0.1, 0.3, 0.7]).unwrap();
         for (mach, value) in [(0.0, 1.0), (0.1, 1.0), (0.2, 2.0), (0.3, 3.0), (2.0, 4.0)] {
             assert!((at(&layers, 1e5, mach) - value).abs() < 1e-15);
         }
     }
 
-    /// At a number of the file the slope is that of the side to which the flow leads, and none beyond the ends.
+    #[test]
+    fn numbers_that_make_no_layers_are_refused_at_the_first_wrong_one() {
+        let next_after = |x: f64| f64::from_bits(x.to_bits() + 1);
+        for (axis, numbers, place, text) in [
+            (
+                Axis::Mach,
+                vec![],
+                0,
+                "there is no Mach number; one or more are needed",
+            ),
+            (
+                Axis::Mach,
+                vec![-0.1],
+                0,
+                "Mach number -0.1 must be 0 or more",
+            ),
+            (
+                Axis::Mach,
+                vec![0.0, f64::INFINITY],
+                1,
+                "Mach number inf must be 0 or more",
+            ),
+            (
+                Axis::Mach,
+                vec![f64::NAN],
+                0,
+                "Mach number NaN must be 0 or more",
+            ),
+            (
+                Axis::Reynolds,
+                vec![0.5],
+                0,
+                "Reynolds number 0.5 must be 1 or more",
+            ),
+            (
+                Axis::Reynolds,
+                vec![1e5, 2e5, 2e5],
+                2,
+                "Reynolds number 200000 must be above the one before (200000)",
+            ),
+            (
+                Axis::Reynolds,
+                vec![1e6, next_after(1e6)],
+                1,
+                "Reynolds number 1000000.0000000001 must be above the one before (1000000)",
+            ),
+        ] {
+            let error = Layers::try_new(axis, numbers).unwrap_err();
+            assert_eq!((error.layer, error.to_string().as_str()), (place, text));
+        }
+    }
+
+    /// At a number of the file the slope is that of the side to which the flow moves; it is 0
+    /// beyond the ends.
     #[test]
     fn slopes_at_the_numbers_of_a_file() {
-        let layers = Layers::new(Axis::Mach, vec![0.1, 0.3, 0.7]);
+        let layers = Layers::try_new(Axis::Mach, vec![0.1, 0.3, 0.7]).unwrap();
         let slope = |mach: f64, change: f64| {
             let flow = Similarity {
                 reynolds: Dual64::from_re(1e5),

@@ -1,8 +1,13 @@
 //! Section data: lift and drag coefficients over the full circle of angles of attack, for one or
 //! more Reynolds or Mach numbers, read from files.
+//!
+//! Each file format has its own file here and a row in `formats`. What a format reads becomes
+//! curves in layers (`table`) or laws (`laws`), which check themselves all that they rely on.
 
 mod c81;
 mod combi;
+mod curve;
+mod formats;
 #[cfg(test)]
 mod fuzz;
 mod laws;
@@ -11,69 +16,93 @@ mod polar;
 mod records;
 mod table;
 
-pub use layers::Axis;
-pub use table::{Curve, Table, wrapped};
+pub use curve::{Coefficient, Curve, CurveError, CurveProblem};
+pub use layers::{Axis, Layers, LayersError, LayersProblem};
+pub use table::{Table, wrapped};
 
 use laws::{Laws, Line};
-use layers::Layers;
 
-use super::{compressibility::Compressibility, scalar::Scalar, text_file};
+use super::{
+    compressibility::Compressibility,
+    scalar::{C, Scalar},
+    text_file,
+};
 use core::f64::consts::PI;
 use std::path::Path;
 use thiserror::Error;
 
-/// Reynolds numbers below this count as this in the drag correction, which was made for
-/// boundary layers, not for creeping flow.
-const LOWEST_CORRECTED_REYNOLDS: f64 = 1e4;
+/// Lower Reynolds numbers count as this one in the drag correction, which was made for boundary
+/// layers and not for creeping flow.
+const MIN_CORRECTED_REYNOLDS: f64 = 1e4;
 
 /// What is wrong with an airfoil file, and where.
 #[derive(Debug, Error, Clone, PartialEq)]
 pub enum AirfoilError {
+    /// The file is missing, is not a plain file, is too large or is not text.
     #[error("airfoil file {file}: cannot be read ({reason}); give a file that exists and is text")]
-    Unreadable { file: String, reason: String },
+    Unreadable {
+        /// The file's path.
+        file: String,
+        /// Why it cannot be read.
+        reason: String,
+    },
+    /// A line breaks the rules of its format.
     #[error("airfoil file {file}, line {line}: {problem}")]
     Malformed {
+        /// The file's path.
         file: String,
+        /// Line of the problem, from 1.
         line: usize,
+        /// What is wrong there.
         problem: String,
     },
+    /// A field of a line breaks the rules of its format.
     #[error("airfoil file {file}, line {line}, column {column}: {problem}")]
     MalformedField {
+        /// The file's path.
         file: String,
+        /// Line of the problem, from 1.
         line: usize,
+        /// Column of the problem, from 1.
         column: usize,
+        /// What is wrong there.
         problem: String,
     },
 }
 
-/// Where a section's lift comes from.
+/// The source of a section's lift.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Lift {
-    /// The airfoil's table; of a file of laws, the lines A and C (see `laws`).
+    /// The airfoil's table; for a file of laws, the lines A and C (thesis 3.5.1).
     Table,
     /// Flat plate: cl = 2 pi sin(alpha) (thesis eq. 49).
     TwoPi,
-    /// One lift slope by the pitch of the element (thesis 3.5.1), for a file of laws only.
+    /// For a file of laws: one lift slope, by the pitch of the element (thesis 3.5.1). For a table,
+    /// the table.
     SlopesByReynolds,
 }
 
-/// How a section's coefficients are made from its table.
+/// How a section's coefficients are made from its data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionModel {
+    /// The source of the lift.
     pub lift: Lift,
+    /// The rule for the lift at a Mach number. Data for two or more Mach numbers take its place.
     pub compressibility: Compressibility,
-    /// Exponent n, 0 to 0.5, of the drag correction outside the table's Reynolds numbers.
+    /// Exponent n, 0 to 0.5, of the drag correction outside the data's Reynolds numbers.
     pub drag_reynolds_exponent: f64,
 }
 
-/// The flow at a section: Reynolds number of the chord and Mach number, both >= 0.
+/// The similarity numbers of the flow at a section.
 #[derive(Debug, Clone, Copy)]
 pub struct Similarity<S> {
+    /// Reynolds number of the chord, >= 0.
     pub reynolds: S,
+    /// Mach number, >= 0.
     pub mach: S,
 }
 
-/// An airfoil as read from a file. Angles in rad, from -pi to pi.
+/// An airfoil as read from a file. Angles in rad.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Airfoil {
     name: String,
@@ -88,54 +117,57 @@ enum Data {
 }
 
 impl Airfoil {
-    /// Reads a file: a CombiTable of laws if it begins with `#1`, else polars by Reynolds number if its
-    /// name ends in `.polar`, else C81.
+    /// Reads a file in one of the formats of `formats`: a CombiTable of laws if it begins with
+    /// `#1`, polars by Reynolds number if its name ends in `.polar`, else C81.
+    ///
+    /// # Errors
+    ///
+    /// The first problem, with its place in the file.
     pub fn read(path: &Path) -> Result<Self, AirfoilError> {
         let file = path.display().to_string();
-        let text = text_file::read(path).map_err(|reason| AirfoilError::Unreadable {
-            file: file.clone(),
-            reason,
-        })?;
-        if combi::is_combi(&text) {
-            combi::parse(&text, &file)
-        } else if path
-            .extension()
-            .is_some_and(|e| e.eq_ignore_ascii_case("polar"))
-        {
-            polar::parse(&text, &file)
-        } else {
-            c81::parse(&text, &file)
+        match text_file::read(path) {
+            Ok(text) => (formats::detected(path, &text).parse)(&text, &file),
+            Err(reason) => Err(AirfoilError::Unreadable { file, reason }),
         }
     }
 
-    /// What the file calls the section.
+    /// The section's name in the file.
     pub fn name(&self) -> &str {
         &self.name
     }
 
     /// Whether the file gives laws, which `Lift::SlopesByReynolds` needs.
     pub fn has_laws(&self) -> bool {
-        matches!(self.data, Data::Laws(_))
+        match self.data {
+            Data::Laws(_) => true,
+            Data::Tables { .. } => false,
+        }
     }
 
-    /// Lowest and highest Reynolds or Mach number of the file, if its coefficients depend on it. A
-    /// single Mach number is none: a rule takes the coefficients to others.
+    /// Lowest and highest Reynolds or Mach number of the file; none if its coefficients do not
+    /// depend on that number. A single Mach number has no range: a compressibility rule takes the
+    /// coefficients to others.
     pub fn range(&self, axis: Axis) -> Option<(f64, f64)> {
         let (lift, drag) = match &self.data {
             Data::Tables { lift, drag } => (lift.layers(), drag.layers()),
             Data::Laws(laws) => (laws.layers(), laws.layers()),
         };
-        let counts = |layers: &&Layers| axis == Axis::Reynolds || layers.resolves_mach();
+        let has_range = |layers: &&Layers| match axis {
+            Axis::Reynolds => true,
+            Axis::Mach => layers.resolves_mach(),
+        };
         let mut ranges = [lift, drag]
             .into_iter()
-            .filter(counts)
+            .filter(has_range)
             .filter_map(|layers| layers.range(axis));
         let first = ranges.next()?;
         Some(ranges.fold(first, |a, b| (a.0.max(b.0), a.1.min(b.1))))
     }
 
-    /// Lift coefficient at angle of attack `alpha` (rad, any value) of an element with the pitch
-    /// `pitch` (rad), on which only `Lift::SlopesByReynolds` depends.
+    /// Lift coefficient.
+    ///
+    /// * `pitch`: of the blade element, rad; it counts for `Lift::SlopesByReynolds` only
+    /// * `alpha`: angle of attack, rad, any value
     pub fn lift_coefficient<S: Scalar>(
         &self,
         model: &SectionModel,
@@ -143,40 +175,45 @@ impl Airfoil {
         alpha: S,
         flow: Similarity<S>,
     ) -> S {
-        let lift = match (&self.data, model.lift) {
-            (_, Lift::TwoPi) => alpha.sin() * (2.0 * PI),
-            (Data::Tables { lift, .. }, _) => lift.value(alpha, flow),
-            (Data::Laws(laws), _) => laws.lift(model.line(pitch), alpha, flow),
+        let lift = match model.lift {
+            Lift::TwoPi => C(2.0 * PI) * alpha.sin(),
+            Lift::Table | Lift::SlopesByReynolds => match &self.data {
+                Data::Tables { lift, .. } => lift.value(alpha, flow),
+                Data::Laws(laws) => laws.lift(model.line(pitch), alpha, flow),
+            },
         };
         self.rule(model).correct(lift, flow.mach)
     }
 
-    /// The lift coefficient at a Mach number over the table's, which is `lift`.
+    /// Factor by which the compressibility rule raises the incompressible lift coefficient `lift`
+    /// at a Mach number (>= 0).
     pub fn compressibility<S: Scalar>(&self, model: &SectionModel, lift: S, mach: S) -> S {
-        S::one() / self.rule(model).divisor(lift, mach)
+        C(1.0) / self.rule(model).divisor(lift, mach)
     }
 
-    /// A table of several Mach numbers takes the place of a rule.
+    /// The compressibility rule. A table of several Mach numbers takes its place.
     fn rule(&self, model: &SectionModel) -> Compressibility {
-        match &self.data {
-            Data::Tables { lift, .. }
-                if model.lift == Lift::Table && lift.layers().resolves_mach() =>
-            {
-                Compressibility::None
-            }
-            _ => model.compressibility,
+        let has_machs = match (model.lift, &self.data) {
+            (Lift::Table, Data::Tables { lift, .. }) => lift.layers().resolves_mach(),
+            (Lift::Table, Data::Laws(_))
+            | (Lift::TwoPi | Lift::SlopesByReynolds, Data::Tables { .. } | Data::Laws(_)) => false,
+        };
+        if has_machs {
+            Compressibility::None
+        } else {
+            model.compressibility
         }
     }
 
-    /// Drag coefficient at angle of attack `alpha` (rad, any value).
+    /// Drag coefficient at the angle of attack `alpha` (rad, any value).
     ///
-    /// Outside the table's Reynolds numbers the nearest one's drag is scaled with
-    /// (Re_table/Re)^n: Yamauchi & Johnson 1983, "Trends of Reynolds Number Effects on
-    /// Two-Dimensional Airfoil Characteristics for Helicopter Rotor Analyses", NASA TM-84363,
-    /// n = 0.2 for a turbulent boundary layer. Beyond stall, where the drag is that of pressure
-    /// and knows little of the boundary layer, only the part that is not above the drag at the
-    /// stall angle is scaled. Bodies without lift have pressure drag only, and tables by Mach number
-    /// know no Reynolds number; both stay as they are.
+    /// Outside the data's Reynolds numbers the nearest one's drag is scaled with (Re_data/Re)^n:
+    /// Yamauchi & Johnson 1983, "Trends of Reynolds Number Effects on Two-Dimensional Airfoil
+    /// Characteristics for Helicopter Rotor Analyses", NASA TM-84363, n = 0.2 for a turbulent
+    /// boundary layer. Beyond stall the drag is that of pressure and depends little on the boundary
+    /// layer; there only a part of it is scaled, as large as the drag at the stall angle. Two kinds
+    /// of drag stay as they are: that of bodies without lift, which is pressure drag, and that of
+    /// tables by Mach number, which know no Reynolds number.
     pub fn drag_coefficient<S: Scalar>(
         &self,
         model: &SectionModel,
@@ -187,13 +224,13 @@ impl Airfoil {
         let Some((lowest, highest)) = self.range(Axis::Reynolds) else {
             return drag;
         };
-        let reynolds = flow.reynolds.at_least(LOWEST_CORRECTED_REYNOLDS);
+        let reynolds = flow.reynolds.at_least(MIN_CORRECTED_REYNOLDS);
         let is_off = model.drag_reynolds_exponent == 0.0 || !self.lifts();
         if is_off || !(reynolds.is_below(lowest) || reynolds.is_above(highest)) {
             return drag;
         }
-        let ratio = S::constant(reynolds.value().clamp(lowest, highest)) / reynolds;
-        let factor = (ratio.ln() * model.drag_reynolds_exponent).exp();
+        let ratio = C(reynolds.value().clamp(lowest, highest)) / reynolds;
+        let factor = (C(model.drag_reynolds_exponent) * ratio.ln()).exp();
         let (negative, positive) = self.stall_angles(flow);
         let stall = if wrapped(alpha).is_below(0.0) {
             negative
@@ -209,7 +246,7 @@ impl Airfoil {
         drag + scaled * (factor - 1.0)
     }
 
-    /// As the file has it.
+    /// The drag coefficient of the file, without the correction.
     fn table_drag<S: Scalar>(&self, alpha: S, flow: Similarity<S>) -> S {
         match &self.data {
             Data::Tables { drag, .. } => drag.value(alpha, flow),
@@ -225,29 +262,33 @@ impl Airfoil {
         }
     }
 
-    /// Slope of one line for the lift, 1/rad, and the angle of zero lift on that line, rad. Of a table,
-    /// the line through the lift at -3 and +3 deg of angle of attack: thesis section 3.5.1, line A. Of
-    /// laws, line A, or with `Lift::SlopesByReynolds` line A or B by the pitch of the element (rad).
+    /// The lift as one line: its slope, 1/rad, and its angle of zero lift, rad.
+    ///
+    /// For a table it is the line through the lift at -3 and +3 deg of angle of attack (thesis
+    /// section 3.5.1, line A). For laws it is line A, or with `Lift::SlopesByReynolds` line A or B
+    /// by the `pitch` of the element, rad.
     pub fn lift_line<S: Scalar>(
         &self,
         model: &SectionModel,
         pitch: f64,
         flow: Similarity<S>,
     ) -> (S, S) {
-        let none = S::zero();
-        let lift = match (&self.data, model.lift) {
-            (_, Lift::TwoPi) => return (S::constant(2.0 * PI), none),
-            (Data::Laws(laws), _) => return (laws.slope(model.line(pitch), flow), none),
-            (Data::Tables { lift, .. }, _) => lift,
+        let zero = S::zero();
+        let lift = match model.lift {
+            Lift::TwoPi => return (S::constant(2.0 * PI), zero),
+            Lift::Table | Lift::SlopesByReynolds => match &self.data {
+                Data::Laws(laws) => return (laws.slope(model.line(pitch), flow), zero),
+                Data::Tables { lift, .. } => lift,
+            },
         };
         let edge = 3.0_f64.to_radians();
         let at = |alpha: f64| lift.value(S::constant(alpha), flow);
         let (low, high) = (at(-edge), at(edge));
         let slope = (high - low) / (2.0 * edge);
         if slope.value() == 0.0 {
-            return (none, none);
+            return (zero, zero);
         }
-        (slope, (high + low) * -0.5 / slope)
+        (slope, C(-0.5) * (high + low) / slope)
     }
 
     /// Angles of attack (negative, positive; rad) at which the lift reaches its first peak; -pi
@@ -264,12 +305,11 @@ impl Airfoil {
 }
 
 impl SectionModel {
-    /// Which of the lines of a file of laws the lift follows.
+    /// The line of a file of laws that the lift follows.
     fn line(&self, pitch: f64) -> Line {
-        if self.lift == Lift::SlopesByReynolds {
-            Line::ByPitch(pitch)
-        } else {
-            Line::Broken
+        match self.lift {
+            Lift::SlopesByReynolds => Line::ByPitch(pitch),
+            Lift::Table | Lift::TwoPi => Line::Broken,
         }
     }
 }
@@ -308,7 +348,7 @@ mod tests {
         );
     }
 
-    /// At the end of the file's Reynolds numbers the power law begins on the side that lies beyond it.
+    /// At the end of the file's Reynolds numbers the power law begins on the side beyond the end.
     #[test]
     fn drag_at_the_end_of_the_reynolds_range_changes_by_the_power_law_beyond_it() {
         let text = "polar 1\nreynolds 1e5\n-180 0 0.02\n-10 -1 0.04\n0 0 0.01\n10 1 0.04\n90 0 2\n180 0 0.02\nreynolds 1e6\n-180 0 0.02\n-10 -1 0.04\n0 0 0.01\n10 1 0.04\n90 0 2\n180 0 0.02\n";

@@ -10,160 +10,168 @@
 //!  180  0.00  0.03
 //! ```
 //!
-//! The angle increases strictly from -180 to 180, where the values of both ends agree; drag is
+//! The angle increases strictly from -180 to 180 deg, where the values of both ends agree; drag is
 //! never negative. Interpolation is linear in angle and in ln Re.
 
-use super::{Airfoil, AirfoilError, Axis, Curve, Data, Table};
+use super::{
+    Airfoil, AirfoilError, Axis, Data, Layers, Table,
+    curve::{Coefficient, Curve},
+    formats::{Format, has_extension},
+};
 
-/// One row: angle of attack in deg, lift and drag coefficients.
-type Row = (f64, f64, f64);
+/// A file is in this format if its name ends in `.polar`.
+pub const FORMAT: Format = Format {
+    detects: |path, _| has_extension(path, "polar"),
+    parse,
+};
+
+/// What is wrong, and in which line (from 1).
+type Problem = (usize, String);
+
+/// A row and its line.
+#[derive(Debug)]
+struct Row {
+    line: usize,
+    /// deg.
+    alpha: f64,
+    lift: f64,
+    drag: f64,
+}
+
+/// The polar at one Reynolds number.
+#[derive(Debug)]
+struct Block {
+    /// Line of its first word, `reynolds`.
+    line: usize,
+    reynolds: f64,
+    rows: Vec<Row>,
+}
 
 /// Reads the text of a `.polar` file; `file` is its name for errors.
 pub fn parse(text: &str, file: &str) -> Result<Airfoil, AirfoilError> {
-    let fail = |line: usize, problem: String| AirfoilError::Malformed {
+    read(text).map_err(|(line, problem)| AirfoilError::Malformed {
         file: file.to_owned(),
         line,
         problem,
+    })
+}
+
+fn read(text: &str) -> Result<Airfoil, Problem> {
+    let (name, blocks) = blocks(text)?;
+    for block in &blocks {
+        block.check_complete()?;
+    }
+    let numbers = blocks.iter().map(|block| block.reynolds).collect();
+    let layers = Layers::try_new(Axis::Reynolds, numbers)
+        .map_err(|error| (blocks[error.layer].line, error.to_string()))?;
+    let table = |coefficient: Coefficient, column: fn(&Row) -> f64| {
+        Table::try_new(layers.clone(), |i| blocks[i].curve(coefficient, column))
     };
+    Ok(Airfoil {
+        data: Data::Tables {
+            lift: table(Coefficient::Lift, |row| row.lift)?,
+            drag: table(Coefficient::Drag, |row| row.drag)?,
+        },
+        name,
+    })
+}
+
+/// The name and the blocks, one or more, as they stand in the file.
+fn blocks(text: &str) -> Result<(String, Vec<Block>), Problem> {
     let mut lines = text
         .lines()
         .enumerate()
         .map(|(i, line)| (i + 1, line.split('#').next().unwrap_or("").trim()))
         .filter(|(_, line)| !line.is_empty());
-
     match lines.next() {
         Some((_, "polar 1")) => {}
         Some((line, found)) => {
-            return Err(fail(
-                line,
-                format!("the file must begin with `polar 1`, not `{found}`"),
-            ));
+            let problem = format!("the file must begin with `polar 1`, not `{found}`");
+            return Err((line, problem));
         }
         None => {
-            return Err(fail(
-                1,
-                "the file is empty; it must begin with `polar 1`".into(),
-            ));
+            let problem = "the file is empty; it must begin with `polar 1`".into();
+            return Err((1, problem));
         }
     }
-
     let mut name = String::new();
-    let mut blocks: Vec<(f64, Vec<Row>)> = Vec::new();
+    let mut blocks: Vec<Block> = Vec::new();
     let mut last_line = 1;
     for (line, content) in lines {
         last_line = line;
         let (word, rest) = content
             .split_once(char::is_whitespace)
             .unwrap_or((content, ""));
-        match word {
-            "name" => name = rest.trim().to_owned(),
-            "reynolds" => {
-                close(blocks.last()).map_err(|problem| fail(line, problem))?;
-                let reynolds = number(rest).map_err(|problem| fail(line, problem))?;
-                if reynolds < 1.0 {
-                    return Err(fail(
-                        line,
-                        format!("Reynolds number {reynolds} must be 1 or more"),
-                    ));
-                }
-                if let Some((previous, _)) = blocks.last()
-                    && reynolds <= *previous
-                {
-                    return Err(fail(
-                        line,
-                        format!(
-                            "Reynolds number {reynolds} must be above the block before ({previous})"
-                        ),
-                    ));
-                }
-                blocks.push((reynolds, Vec::new()));
-            }
-            _ => {
-                let Some((_, rows)) = blocks.last_mut() else {
-                    return Err(fail(
-                        line,
-                        format!(
-                            "`{word}` before the first `reynolds` line; only `name` may stand there"
-                        ),
-                    ));
-                };
-                let next = row(content, rows.last()).map_err(|problem| fail(line, problem))?;
-                rows.push(next);
+        match (word, blocks.last_mut()) {
+            ("name", _) => name = rest.trim().to_owned(),
+            ("reynolds", _) => blocks.push(Block {
+                line,
+                reynolds: number(rest).map_err(|problem| (line, problem))?,
+                rows: Vec::new(),
+            }),
+            (_, Some(block)) => block.rows.push(row(line, content)?),
+            (word, None) => {
+                let problem = format!(
+                    "`{word}` before the first `reynolds` line; only `name` may stand there"
+                );
+                return Err((line, problem));
             }
         }
     }
     if blocks.is_empty() {
-        return Err(fail(last_line, "there is no `reynolds` block".into()));
+        return Err((last_line, "there is no `reynolds` block".into()));
     }
-    close(blocks.last()).map_err(|problem| fail(last_line, problem))?;
-
-    let table = |column: fn(&Row) -> f64| {
-        let layers = blocks.iter().map(|(reynolds, rows)| {
-            let points: Vec<(f64, f64)> = rows.iter().map(|r| (r.0, column(r))).collect();
-            (*reynolds, Curve::from_degrees(&points))
-        });
-        Table::new(Axis::Reynolds, layers.collect())
-    };
-    Ok(Airfoil {
-        data: Data::Tables {
-            lift: table(|r| r.1),
-            drag: table(|r| r.2),
-        },
-        name,
-    })
+    Ok((name, blocks))
 }
 
-fn row(content: &str, previous: Option<&Row>) -> Result<Row, String> {
+fn row(line: usize, content: &str) -> Result<Row, Problem> {
     let values = content
         .split_whitespace()
         .map(number)
-        .collect::<Result<Vec<f64>, String>>()?;
-    let (alpha, lift, drag) = match values[..] {
-        [alpha, lift, drag] | [alpha, lift, drag, _] => (alpha, lift, drag),
+        .collect::<Result<Vec<f64>, String>>()
+        .map_err(|problem| (line, problem))?;
+    match values[..] {
+        [alpha, lift, drag] | [alpha, lift, drag, _] => Ok(Row {
+            line,
+            alpha,
+            lift,
+            drag,
+        }),
         _ => {
-            return Err(format!(
+            let problem = format!(
                 "a row has 3 or 4 numbers (angle, lift, drag, moment), this one has {}",
                 values.len()
-            ));
+            );
+            Err((line, problem))
         }
-    };
-    if drag < 0.0 {
-        return Err(format!("drag coefficient {drag} must not be negative"));
-    }
-    match previous {
-        None if alpha != -180.0 => Err(format!(
-            "the first angle of a block must be -180 deg, not {alpha}"
-        )),
-        Some((before, ..)) if alpha <= *before => Err(format!(
-            "angle {alpha} deg must be above the row before ({before})"
-        )),
-        _ if alpha > 180.0 => Err(format!("angle {alpha} deg is beyond 180")),
-        _ => Ok((alpha, lift, drag)),
     }
 }
 
-/// A block is complete when it ends at 180 deg with the values that it began with.
-fn close(block: Option<&(f64, Vec<Row>)>) -> Result<(), String> {
-    let Some((reynolds, rows)) = block else {
-        return Ok(());
-    };
-    let Some((first, last)) = rows.first().zip(rows.last()) else {
-        return Err(format!(
-            "the block of Reynolds number {reynolds} has no rows"
-        ));
-    };
-    if last.0 != 180.0 {
-        return Err(format!(
-            "the block of Reynolds number {reynolds} ends at {} deg; it must end at 180",
-            last.0
-        ));
+impl Block {
+    /// The format asks for rows, and for the same values at both ends of the circle.
+    fn check_complete(&self) -> Result<(), Problem> {
+        let reynolds = self.reynolds;
+        let Some((first, last)) = self.rows.first().zip(self.rows.last()) else {
+            let problem = format!("the block of Reynolds number {reynolds} has no rows");
+            return Err((self.line, problem));
+        };
+        let is_circle = (first.alpha, last.alpha) == (-180.0, 180.0);
+        if is_circle && (first.lift, first.drag) != (last.lift, last.drag) {
+            let problem = format!(
+                "the block of Reynolds number {reynolds} has other values at -180 than at 180 deg, which is the same angle"
+            );
+            return Err((last.line, problem));
+        }
+        Ok(())
     }
-    if (first.1, first.2) != (last.1, last.2) {
-        return Err(format!(
-            "the block of Reynolds number {reynolds} has other values at -180 than at 180 deg, which is the same angle"
-        ));
+
+    fn curve(&self, coefficient: Coefficient, column: fn(&Row) -> f64) -> Result<Curve, Problem> {
+        let points: Vec<(f64, f64)> = self.rows.iter().map(|r| (r.alpha, column(r))).collect();
+        Curve::try_from_degrees(coefficient, &points).map_err(|error| {
+            let line = self.rows.get(error.point).map_or(self.line, |row| row.line);
+            (line, error.to_string())
+        })
     }
-    Ok(())
 }
 
 /// A finite number, which `nan` and `inf` are not.
@@ -192,12 +200,17 @@ mod tests {
             ("reynolds 1e5", "reynolds 0", 4, "1 or more"),
             ("reynolds 1e5", "reynolds fast", 4, "`fast` is not a number"),
             ("-180 0 0.02", "-170 0 0.02", 5, "must be -180"),
-            ("0 0 0.01", "-190 0 0.01", 6, "must be above the row before"),
+            ("0 0 0.01", "-190 0 0.01", 6, "must be above the one before"),
             ("10 1 0.02 -0.1", "10 1", 7, "this one has 2"),
             ("10 1 0.02 -0.1", "10 1 -0.02", 7, "must not be negative"),
             ("10 1 0.02 -0.1", "10 nan 0.02", 7, "`nan` is not a number"),
             ("180 0 0.02\n", "190 0 0.02\n", 5, "must be -180"),
-            ("\n180 0 0.02\n", "\n", 7, "must end at 180"),
+            (
+                "\n180 0 0.02\n",
+                "\n",
+                7,
+                "last angle must be 180 deg, not 10",
+            ),
             (
                 "\n180 0 0.02\n",
                 "\n180 0 0.03\n",
@@ -206,9 +219,9 @@ mod tests {
             ),
             (
                 "\n180 0 0.02\n",
-                "\n180 0 0.02\nreynolds 1e4\n",
+                "\n180 0 0.02\nreynolds 1e4\n-180 0 0\n180 0 0\n",
                 9,
-                "above the block before",
+                "above the one before (100000)",
             ),
             (
                 "\n180 0 0.02\n",

@@ -1,24 +1,29 @@
 //! Records of numbers as Fortran programs write and read them: in columns of seven characters
-//! (10F7.0, continued as 7X,9F7.0), or, where a line does not keep to them, free.
+//! (10F7.0, continued as 7X,9F7.0), or free where a line does not keep to the columns.
 //!
 //! In columns, numbers may touch each other, and an empty column before the end of the line is 0.
-//! Free numbers stand between blanks, tabs, commas or semicolons. An exponent may be written with D.
+//! Free numbers stand between blanks, tabs, commas or semicolons. A D may begin an exponent.
 
+/// Characters of a column.
 const WIDTH: usize = 7;
+/// Maximum number of values in a line, besides the angle.
 const VALUES_PER_LINE: usize = 9;
 
-/// A number and where it stands: line and column, from 1.
+/// A number and its place in the file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Number {
+    /// Finite.
     pub value: f64,
+    /// From 1.
     pub line: usize,
+    /// From 1.
     pub column: usize,
 }
 
-/// Line, column and what is wrong there.
+/// Line and column, from 1, and what is wrong there.
 pub type Problem = (usize, usize, String);
 
-/// The lines of a text that are not blank.
+/// The lines of a text that are not blank, read one after the other.
 pub struct Records<'a> {
     /// With their numbers from 1.
     lines: Vec<(usize, &'a str)>,
@@ -26,16 +31,19 @@ pub struct Records<'a> {
     next: usize,
 }
 
-/// What stands in a record: `values` numbers, and before them an angle or nothing.
+/// The contents of a record: an angle or nothing, then `values` numbers.
 #[derive(Debug, Clone, Copy)]
 pub struct Layout<'a> {
+    /// Whether an angle comes first.
     pub has_angle: bool,
+    /// Number of values.
     pub values: usize,
-    /// For errors.
+    /// The values' name in errors.
     pub what: &'a str,
 }
 
 impl<'a> Records<'a> {
+    /// The records of a text.
     pub fn new(text: &'a str) -> Self {
         let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line));
         Self {
@@ -44,7 +52,7 @@ impl<'a> Records<'a> {
         }
     }
 
-    /// The next line with its number.
+    /// The next line with its number, from 1. At the end of the file the error names `wanted`.
     pub fn line(&mut self, wanted: &str) -> Result<(usize, &'a str), Problem> {
         let Some(line) = self.lines.get(self.next) else {
             let last = self.lines.last().map_or(1, |(number, _)| *number);
@@ -54,7 +62,11 @@ impl<'a> Records<'a> {
         Ok(*line)
     }
 
-    /// The numbers of the next record: the angle, if it has one, and the values.
+    /// The numbers of the next record: the angle, if it has one, and the values. Never empty.
+    ///
+    /// # Errors
+    ///
+    /// A word that is not a number, too few or too many numbers, or the end of the file.
     pub fn numbers(&mut self, layout: Layout) -> Result<Vec<Number>, Problem> {
         let begin = self.next;
         if let Some(numbers) = self.in_columns(layout)? {
@@ -64,7 +76,7 @@ impl<'a> Records<'a> {
         self.free(layout)
     }
 
-    /// None if one of the lines does not keep to the columns.
+    /// The numbers of a record in columns; none if one of its lines does not keep to the columns.
     fn in_columns(&mut self, layout: Layout) -> Result<Option<Vec<Number>>, Problem> {
         let mut numbers = Vec::new();
         let mut missing = layout.values;
@@ -104,7 +116,7 @@ impl<'a> Records<'a> {
             let is_short = numbers.len() < wanted && layout.values <= VALUES_PER_LINE;
             if is_short || numbers.len() > wanted {
                 let problem = format!(
-                    "{wanted} numbers are expected here, not {}; {} is missing or too many: correct the line, or the counts in the first line",
+                    "{wanted} numbers are expected here, not {}; {} is missing or one is too many: correct the line, or the counts in the first line",
                     numbers.len(),
                     layout.what
                 );
@@ -123,7 +135,7 @@ fn columns(number: usize, line: &str, has_angle: bool, values: usize) -> Option<
     let text: Vec<char> = line.trim_end().chars().collect();
     let mut numbers = Vec::new();
     for place in 0..=values {
-        // A line that ends before the column has forgotten a number rather than left it blank.
+        // In a line that ends before the column a number is missing, not blank.
         let rest = text.get(place * WIDTH..)?;
         let field: String = rest.iter().take(WIDTH).collect();
         let is_blank = field.trim().is_empty();
@@ -149,7 +161,7 @@ fn columns(number: usize, line: &str, has_angle: bool, values: usize) -> Option<
     text.len().le(&end).then_some(numbers)
 }
 
-/// A finite number as Fortran writes it.
+/// A finite number as Fortran writes it: none for `nan` and for one that overflows.
 fn number(text: &str) -> Option<f64> {
     let value = text
         .parse()

@@ -77,9 +77,9 @@ pub fn solve<S: Scalar>(
     rotation: S,
     climb: S,
 ) -> Result<ClosedForm<S>, RootError> {
-    let none = S::zero();
+    let zero = S::zero();
     if rotation.value() < STANDSTILL {
-        // Angles are small only against the flow of rotation. At standstill this theory has no load.
+        // Inflow angles are small only if the rotor turns. At standstill the theory has no load.
         return Ok(ClosedForm {
             load: SectionLoad::zero(),
             induced: none,
@@ -95,7 +95,7 @@ pub fn solve<S: Scalar>(
             .section
             .mixed(|airfoil| line(airfoil).0 * line(airfoil).1);
         let zero_lift = if slope.value() == 0.0 {
-            none
+            zero
         } else {
             moment / slope
         };

@@ -28,8 +28,8 @@ pub enum Skew {
     GlauertHighSpeed,
 }
 
-/// Resultant flow at the disc over tip speed above which Drees' terms in mu are held. He fitted them
-/// to the advance ratios of helicopters; a slow rotor in wind can have any advance ratio.
+/// Resultant flow at the disc over tip speed above which Drees' terms in mu are held. He fitted
+/// them to the advance ratios of helicopters; a slow rotor in wind can have any advance ratio.
 const MAX_FLOW: f64 = 0.5;
 
 /// The distribution's coefficients.
@@ -86,10 +86,10 @@ impl Skew {
 
     /// Coefficients of the distribution.
     ///
-    /// The wake's skew angle is chi = atan(edgewise/|through|): a wake that leaves upwards is skewed
-    /// like one that leaves downwards. With h = sqrt(edgewise^2 + through^2) the formulae need only
-    /// sin chi = edgewise/h and tan(chi/2) = edgewise/(h + |through|). These divide by zero in still
-    /// air alone, where all coefficients are 0.
+    /// The wake's skew angle is chi = atan(edgewise/|through|): a wake that leaves upwards is
+    /// skewed like one that leaves downwards. With h = sqrt(edgewise^2 + through^2) the formulae
+    /// need only sin chi = edgewise/h and tan(chi/2) = edgewise/(h + |through|). These divide by
+    /// zero in still air alone, where all coefficients are 0.
     ///
     /// * `edgewise`: flow along the disc, >= 0, m/s
     /// * `through`: flow through the disc with the induced velocity, any sign, m/s

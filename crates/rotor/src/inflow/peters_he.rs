@@ -1,6 +1,6 @@
 //! The generalised dynamic wake: Peters, Boyd & He 1989 (J. Am. Helicopter Soc. 34(4), p. 5), He
-//! 1989 (thesis, Georgia Tech) and Peters & He 1991 (J. Am. Helicopter Soc. 36(3), p. 59). Equations
-//! are numbered as in the freely available Moriarty & Hansen 2005, NREL/TP-500-36881.
+//! 1989 (thesis, Georgia Tech) and Peters & He 1991 (J. Am. Helicopter Soc. 36(3), p. 59).
+//! Equations are numbered as in the freely available Moriarty & Hansen 2005, NREL/TP-500-36881.
 //!
 //! The induced velocity (60), positive down, with x = r/R and psi from downwind,
 //!
@@ -32,16 +32,16 @@
 //! i^r (-i)^m (-i)^|m-r| is 1 for r >= m and (-1)^(r+m) for r < m. Hence Gamma is antisymmetric
 //! between harmonics of unlike parity, Pitt & Peters' 15 pi/64 among them.
 //!
-//! The order of V and L^-1 is that of Peters & HaQuang 1988. Only the first pressure carries thrust,
-//! and V divides the pressures. So the whole thrust is 2 rho A VT v, with VT of the mean velocity v,
-//! in a steady state with enough functions. With few functions the mean is too large at the same VT.
-//! Under a uniform loading it is too large by 12.5 % with one function of the mean (order 1), 5.0 %
-//! with two (orders 2, 3), 2.7 % with three (4, 5) and 1.7 % with four (6); under a loading like nu by
-//! 12.5, 1.6, 0.5 and 0.2 %.
+//! The order of V and L^-1 is that of Peters & HaQuang 1988. Only the first pressure carries
+//! thrust, and V divides the pressures. So the whole thrust is 2 rho A VT v, with VT of the mean
+//! velocity v, in a steady state with enough functions. With few functions the mean is too large at
+//! the same VT. Under a uniform loading it is too large by 12.5 % with one function of the mean
+//! (order 1), 5.0 % with two (orders 2, 3), 2.7 % with three (4, 5) and 1.7 % with four (6); under
+//! a loading like nu by 12.5, 1.6, 0.5 and 0.2 %.
 //!
-//! The power p v that the disc puts into its wake is never negative: with L scaled so that its parts
-//! of like parity are symmetric, L + L^T has no negative eigenvalue, and no zero eigenvalue for
-//! X < 1. So L has an inverse and all modes decay. In edgewise flow, X = 1, some eigenvalues of
+//! The power p v that the disc puts into its wake is never negative: with L scaled so that its
+//! parts of like parity are symmetric, L + L^T has no negative eigenvalue, and no zero eigenvalue
+//! for X < 1. So L has an inverse and all modes decay. In edgewise flow, X = 1, some eigenvalues of
 //! L + L^T are zero, but the odd parts of L give it an inverse there too: from X = 0 to 1 the
 //! condition number of Lc grows from 1.2 ... 3.3 to 3.3, 9.6, 13, 27, 29, 47 for orders 1 ... 6. X
 //! needs no limit.
@@ -98,8 +98,8 @@ pub struct Wake {
 struct Bounds {
     /// Largest 2-norm of K^-1/2 L^-1 K^-1/2 at all X, L scaled as in the head.
     wake: f64,
-    /// Largest eigenvalue of K^-1 times the integral of phi phi x dx over 4, the blades' speed being
-    /// x times that of the tip, and the same without x for the flow along the disc.
+    /// Largest eigenvalue of K^-1 times the integral of phi phi x dx over 4, the blades' speed
+    /// being x times that of the tip, and the same without x for the flow along the disc.
     turning: f64,
     edgewise: f64,
     /// Traces of the same two.
@@ -107,8 +107,8 @@ struct Bounds {
     edgewise_trace: f64,
 }
 
-/// Computed as `Bounds` says, with all harmonics, and rounded up. With fewer harmonics `wake` is up to
-/// 3 % larger, which the margin of the steps in time covers.
+/// Computed as `Bounds` says, with all harmonics, and rounded up. With fewer harmonics `wake` is up
+/// to 3 % larger, which the margin of the steps in time covers.
 const BOUNDS: [Bounds; MAX_ORDER] = [
     bounds([5.07, 1.11, 1.48, 2.80, 4.13]),
     bounds([11.32, 1.90, 3.70, 7.83, 11.60]),
@@ -147,9 +147,9 @@ impl Wake {
 
     /// With fewer harmonics than the rotor has blades, at least the mean.
     ///
-    /// Blades carry a load that turns with them, and its harmonics N, 2 N ... remain in the sum over N
-    /// blades even in hover. There the blades would sit in a wave of downwash of their own. That is
-    /// the wake between the blades, which tip losses stand for.
+    /// Blades carry a load that turns with them, and its harmonics N, 2 N ... remain in the sum
+    /// over N blades even in hover. There the blades would sit in a wave of downwash of their own.
+    /// That is the wake between the blades, which tip losses stand for.
     pub fn of_blades(order: usize, blades: usize, radius_ratios: &[f64]) -> Self {
         Self::with_harmonics(order, blades.saturating_sub(1), radius_ratios)
     }
@@ -212,8 +212,8 @@ impl Wake {
         false
     }
 
-    /// Harmonics of the azimuth with the cosine `cos` and the sine `sin`. With both zero, which stands
-    /// for an azimuth without a direction, only m = 0 is left.
+    /// Harmonics of the azimuth with the cosine `cos` and the sine `sin`. With both zero, which
+    /// stands for an azimuth without a direction, only m = 0 is left.
     pub fn harmonics<S: Scalar>(cos: S, sin: S) -> Harmonics<S> {
         let mut all = Harmonics {
             cos: [S::one(); MAX_HARMONICS + 1],
@@ -270,8 +270,8 @@ impl Wake {
         }
     }
 
-    /// Rates of change of the states, m/s2, under a loading tau, m2/s2. Each slice has `len()` entries
-    /// or more.
+    /// Rates of change of the states, m/s2, under a loading tau, m2/s2. Each slice has `len()`
+    /// entries or more.
     pub fn rate<S: Scalar>(
         &self,
         states: &[S],
@@ -318,13 +318,13 @@ impl Wake {
         turned
     }
 
-    /// A bound on the rates of the modes, 1/s, for steps in time: what the wake carries away, and the
-    /// damping by blades with a lift slope of 2 pi.
+    /// A bound on the rates of the modes, 1/s, for steps in time: what the wake carries away, and
+    /// the damping by blades with a lift slope of 2 pi.
     ///
     /// * `solidity`: N c/(pi R)
     /// * `tip_speed`: >= 0, m/s
-    /// * `is_blades`: whether the blades act one by one, in any number and at any azimuth; else their
-    ///   loads are averaged over the azimuth
+    /// * `is_blades`: whether the blades act one by one, in any number and at any azimuth; else
+    ///   their loads are averaged over the azimuth
     pub fn fastest_rate(
         &self,
         states: &[f64],
@@ -474,8 +474,8 @@ fn gamma(r: usize, m: usize, j: usize, n: usize) -> f64 {
     }
 }
 
-/// Replaces the right side by the solution: Gaussian elimination with row exchanges (Golub & Van Loan
-/// 2013, algorithm 3.4.1).
+/// Replaces the right side by the solution: Gaussian elimination with row exchanges (Golub & Van
+/// Loan 2013, algorithm 3.4.1).
 fn solve<S: Scalar>(matrix: &mut Matrix<S>, right: &mut [S]) {
     let size = right.len();
     for i in 0..size {

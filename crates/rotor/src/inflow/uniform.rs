@@ -2,7 +2,7 @@
 //! the thrust is the flux of momentum through the disc,
 //!
 //! ```text
-//! T = 2 rho A v0 V',   V' = sqrt(V_x^2 + (V_c + v0)^2), or what the descent model puts in its place,
+//! T = 2 rho A v0 V',   V' = sqrt(V_x^2 + (V_c + v0)^2) or that of the descent model,
 //! ```
 //!
 //! and T is also the thrust of the blades in that inflow. So there is one bracketed unknown, the
@@ -10,8 +10,9 @@
 //! a disc at rest are no special cases.
 //!
 //! Descent. Where the thrust points against the flow through the disc, momentum theory has up to
-//! three roots. As in the annulus, the windmill state (air passes upwards) is taken where it exists,
-//! that is, where the sides change their order before v0 = -V_c/2; else the root beyond.
+//! three roots. As in the annulus, the windmill state (air passes upwards) is taken where it
+//! exists: where the larger side of the equation becomes the smaller one before v0 = -V_c/2. Else
+//! the root beyond -V_c/2 is taken.
 
 use crate::{
     root::{End, RootError, bracketed},

@@ -1,12 +1,12 @@
-//! Johnson's model of the mean inflow in the vortex ring state: Johnson 2005, "Model for Vortex Ring
-//! State Influence on Rotorcraft Flight Dynamics", NASA/TP-2005-213477, pp. 14, 23 and 24.
+//! Johnson's model of the mean inflow in the vortex ring state: Johnson 2005, "Model for Vortex
+//! Ring State Influence on Rotorcraft Flight Dynamics", NASA/TP-2005-213477, pp. 14, 23 and 24.
 //!
 //! In units of v_h, with V_z the climb and V_x the flow along the disc. The baseline is momentum
-//! theory with its two branches joined by a cubic between the points A and B
-//! (v = b V_z + c V_z^2 + d V_z^3: v and slope at A, v at B). A piecewise cubic is added to V_z + v.
-//! It begins with 0 at D, goes through given values at N and X, and ends with 0 at E. N and X are the
-//! boundaries of instability in climb; there V_z + v has no slope. The points move with V_x and meet
-//! at V_xM; beyond it there is no vortex ring.
+//! theory with its two branches joined by a cubic between the points A and B,
+//! v = b V_z + c V_z^2 + d V_z^3, from v and slope at A and v at B. To the baseline is added a
+//! piecewise cubic, which is 0 at D and E and brings V_z + v to given values at N and X. These are
+//! the boundaries of instability in climb, where V_z + v has no slope. The points move with V_x and
+//! meet at V_xM; beyond V_xM there is no vortex ring.
 //!
 //! Ours: the slopes at N and X fade with V_x as the values do, so that nothing jumps at V_xM.
 //!
@@ -147,13 +147,13 @@ fn ratio<S: Scalar>(edgewise: S, climb: S) -> S {
     };
     let n = at(upper, THROUGH_N, N);
     let x = at(lower, THROUGH_X, X);
-    let nothing = Knot {
+    let begin = Knot {
         at: S::constant(D),
         value: S::zero(),
         slope: S::zero(),
     };
     let more = if climb.value() >= upper.value() {
-        hermite(&n, &nothing, climb)
+        hermite(&n, &begin, climb)
     } else if climb.value() >= lower.value() {
         hermite(&x, &n, climb)
     } else {
@@ -188,8 +188,8 @@ fn baseline<S: Scalar>(edgewise: S, climb: S) -> S {
     }
 }
 
-/// The largest root of v sqrt(V_x^2 + (V_z + v)^2) = 1, which continues hover. Newton's method finds
-/// it from above, where the left side is convex.
+/// The largest root of v sqrt(V_x^2 + (V_z + v)^2) = 1, which continues hover. Newton's method
+/// finds it from above, where the left side is convex.
 fn helicopter<S: Scalar>(edgewise: S, climb: S) -> S {
     if edgewise.value() == 0.0 {
         return C(-0.5) * climb + (C(1.0) + C(0.25) * climb * climb).sqrt();

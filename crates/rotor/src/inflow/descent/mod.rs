@@ -94,7 +94,7 @@ impl Descent {
             Self::Measured | Self::Johnson => momentum(),
         };
         // In descent momentum theory can give a negative slope, which has no meaning: the wake
-        // carries away nothing at the least.
+        // carries nothing away at the least.
         MassFlow {
             speed,
             slope: slope.at_least(0.0),
@@ -110,17 +110,17 @@ pub enum FlowState {
     Normal,
     /// Inside the boundary of Johnson's unstable region.
     VortexRing,
-    /// Between the vortex ring and the windmill, the air swept along.
+    /// Between the vortex ring and the windmill brake state.
     TurbulentWake,
     /// The air passes through the disc with the thrust and drives the rotor.
     WindmillBrake,
 }
 
 impl FlowState {
-    /// The flow state by Johnson's boundary (2005, NASA/TP-2005-213477): inside the boundary it is the
-    /// vortex ring, below it the turbulent wake, down to the end of the model (V_c/v_h = -2 in axial
-    /// flow), and below that the windmill brake. In fast edgewise flow, where there is no boundary,
-    /// the direction of the air through the disc decides.
+    /// The flow state by Johnson's boundary (2005, NASA/TP-2005-213477): inside the boundary it is
+    /// the vortex ring, below it the turbulent wake, down to the end of the model (V_c/v_h = -2 in
+    /// axial flow), and below that the windmill brake. In fast edgewise flow, where there is no
+    /// boundary, the direction of the air through the disc decides.
     ///
     /// * `edgewise`: flow along the disc, >= 0, m/s
     /// * `climb`: flow down through the disc, m/s

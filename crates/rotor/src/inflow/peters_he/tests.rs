@@ -123,8 +123,8 @@ fn radial_functions_are_those_published_and_orthonormal() {
     }
 }
 
-/// In axial flow v = p/(2 rho V) everywhere, so that Gamma for r = m is the product of the functions
-/// of pressure and velocity.
+/// In axial flow v = p/(2 rho V) everywhere, so that Gamma for r = m is the product of the
+/// functions of pressure and velocity.
 #[test]
 fn gains_of_one_harmonic_are_momentum_theory_in_axial_flow() {
     for (m, j) in Wake::new(6, &[]).indices {
@@ -222,11 +222,12 @@ fn coupling_of_unlike_parity_is_antisymmetric() {
     assert!(coupled > 40);
 }
 
-/// The steady gains of three states, as velocities at the tip by (T, moments)/(rho A V), are those of
-/// Pitt & Peters 1981 times 9/8, 8/5 and 75/64. They solve the same equations with fewer functions:
-/// here thrust and moments come as pressures like nu and x nu, and the velocities that these make
-/// (also like nu and x nu in axial flow) are projected on 1 and x with the weight x nu. Pitt & Peters
-/// take the thrust as a pressure with two functions and get 15 pi/64, as order 2 does in the next test.
+/// The steady gains of three states, as velocities at the tip by (T, moments)/(rho A V), are those
+/// of Pitt & Peters 1981 times 9/8, 8/5 and 75/64. They solve the same equations with fewer
+/// functions: here thrust and moments come as pressures like nu and x nu, and the velocities that
+/// these make (also like nu and x nu in axial flow) are projected on 1 and x with the weight x nu.
+/// Pitt & Peters take the thrust as a pressure with two functions and get 15 pi/64, as order 2 does
+/// in the next test.
 #[test]
 fn three_states_against_pitt_and_peters() {
     let wake = Wake::new(1, &[]);
@@ -298,8 +299,8 @@ fn mean_in_axial_flow_goes_to_momentum_theory() {
     }
 }
 
-/// Uniformly loaded in hover the disc as a whole keeps to T = 2 rho A v^2 although VT = v for the first
-/// pressure and V = 2 v for the others. Half of what is not like nu is then left, so that the
+/// Uniformly loaded in hover the disc as a whole keeps to T = 2 rho A v^2 although VT = v for the
+/// first pressure and V = 2 v for the others. Half of what is not like nu is then left, so that the
 /// excess is half way between the two of the last test.
 #[test]
 fn thrust_in_hover_is_that_of_momentum_theory() {
@@ -339,8 +340,8 @@ fn field_in_axial_flow_converges_to_the_pressure() {
     assert!(before < 0.01, "{before}");
 }
 
-/// 8/(3 pi) and 16/(45 pi), the apparent mass and inertia of a disc (Tuckerman 1925, NACA TR 210): with
-/// three states a rotor in still air starts its wake like Pitt & Peters', from any loads.
+/// 8/(3 pi) and 16/(45 pi), the apparent mass and inertia of a disc (Tuckerman 1925, NACA TR 210):
+/// with three states a rotor in still air starts its wake like Pitt & Peters', from any loads.
 #[test]
 fn start_in_still_air_is_that_of_pitt_and_peters() {
     let ratios = [0.3, 0.6, 0.9];
@@ -410,7 +411,7 @@ fn turned_axes() {
     assert!((found[2] - expected.sine).abs() < 1e-15);
 }
 
-/// Against sums of (60) with cosines of the angle; and an azimuth without a direction has m = 0 only.
+/// Against sums of (60) with cosines of the angle. An azimuth without a direction has m = 0 only.
 #[test]
 fn velocity_at_an_element() {
     let wake = Wake::new(4, &[0.25, 0.7]);
@@ -580,8 +581,8 @@ fn fastest_rate_bounds_the_modes() {
     }
 }
 
-/// Small changes of the mean in hover, without other loads, die away with R 8/(3 pi)/(4 v) times the
-/// 9/8 of the gain: see `three_states_against_pitt_and_peters`.
+/// Small changes of the mean in hover, without other loads, die away with R 8/(3 pi)/(4 v) times
+/// the 9/8 of the gain: see `three_states_against_pitt_and_peters`.
 #[test]
 fn time_constant_of_the_mean_in_hover() {
     let (mean, radius, small) = (4.0, 2.0, 1e-6);
