@@ -38,3 +38,16 @@ pub fn set(block: &mut RotorBlock, place: RealRef, value: f64) {
 pub fn get(block: &RotorBlock, place: RealRef) -> f64 {
     block.values().reals[place]
 }
+
+/// A block of default values with these changes, computed.
+pub fn computed(reals: &[(RealRef, f64)], integers: &[(IntegerRef, i32)]) -> RotorBlock {
+    let mut block = default_block();
+    for (place, value) in reals {
+        set(&mut block, *place, *value);
+    }
+    for (place, value) in integers {
+        block.set_integers(&[*place], &[*value]).unwrap();
+    }
+    block.update().unwrap();
+    block
+}
