@@ -12,16 +12,17 @@ the largest deviation of each output is printed, in % of the largest magnitude i
 tolerance is an error.
 """
 
-import argparse
 import csv
 import sys
-import tempfile
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from fmpy import extract, read_model_description, simulate_fmu
+from fmpy import read_model_description, simulate_fmu
+
+from rotor import as_numbers, unpacked
+from script import command_line
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
 TOLERANCE = 1.0  # %
@@ -53,9 +54,9 @@ def parameters(path):
     return {parameter.get("name"): parameter[0].get("value") for parameter in found}
 
 
-def experiments(unzipped):
+def experiments(content):
     """The experiments that the manifest of the layered standard names."""
-    folder = Path(unzipped) / FOLDER
+    folder = Path(content) / FOLDER
     for related in ET.parse(folder / "fmi-ls-manifest.xml").iter("Related"):
         if related.get("role").split("/")[0] != "experiment":
             continue
@@ -72,18 +73,8 @@ def experiments(unzipped):
             )
 
 
-def fly(unzipped, description, experiment, interface):
+def fly(folder, description, experiment, interface):
     """Columns of what FMPy computes, at each communication point."""
-    variables = {v.name: v for v in description.modelVariables}
-    items = {t.name: t.items for t in description.typeDefinitions if t.items}
-
-    def value(name, text):
-        """FMPy takes enumerations as numbers."""
-        variable = variables[name]
-        if variable.type != "Enumeration":
-            return text
-        return next(item.value for item in items[variable.declaredType.name] if item.name == text)
-
     # Inputs that are not named keep their start values.
     count = len(experiment.inputs["time"])
     others = {
@@ -93,14 +84,14 @@ def fly(unzipped, description, experiment, interface):
     }
     inputs = experiment.inputs | others
     result = simulate_fmu(
-        unzipped,
+        folder,
         fmi_type=interface,
         relative_tolerance=SOLVER_TOLERANCE if interface == "ModelExchange" else None,
         model_description=description,
         stop_time=experiment.stop,
         # In Model Exchange FMPy holds the inputs in each interval, too, and CVode runs on with them beyond its end.
         output_interval=experiment.step / (4 if interface == "ModelExchange" else 1),
-        start_values={name: value(name, text) for name, text in experiment.parameters.items()},
+        start_values=as_numbers(description, experiment.parameters),
         input=np.rec.fromarrays(list(inputs.values()), names=list(inputs)),
         output=[name for name in experiment.reference if name != "time"],
     )
@@ -127,8 +118,7 @@ def deviations(result, reference):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu with the references")
+    parser = command_line(__doc__)
     parser.add_argument("--results", type=Path, help="folder with <experiment>.csv of another importer")
     parser.add_argument(
         "--interface",
@@ -140,16 +130,15 @@ def main():
     arguments = parser.parse_args()
 
     failed = []
-    with tempfile.TemporaryDirectory() as folder:
-        unzipped = extract(str(arguments.fmu), unzipdir=folder)
-        description = read_model_description(unzipped)
+    with unpacked(arguments.fmu) as folder:
+        description = read_model_description(folder)
         print("experiment    output                  deviation, %   at, s")
-        for experiment in experiments(unzipped):
+        for experiment in experiments(folder):
             try:
                 if arguments.results:
                     result = columns(arguments.results / f"{experiment.name}.csv")
                 else:
-                    result = fly(unzipped, description, experiment, arguments.interface)
+                    result = fly(folder, description, experiment, arguments.interface)
                 for output, deviation, time in deviations(result, experiment.reference):
                     print(f"{experiment.name:12}  {output:22}  {deviation:12.4f}  {time:6.3f}")
                     if not deviation <= arguments.tolerance:

@@ -10,19 +10,10 @@ cushions the landing is the energy in the rotor.
 prints the flight and writes into FOLDER engine-off.csv and engine-off.png.
 """
 
-import argparse
-import csv
 import math
-import sys
-import tempfile
-from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave
+from rotor import Rotor
+from script import command_line, plt, save_plot, write_table
 
 # A light helicopter with two heavy blades, near those of the 1950s; sea level.
 GRAVITY = 9.81  # m/s2
@@ -90,69 +81,12 @@ PITCH_RATE_PER_ACCELERATION = 6.0  # (deg/s)/(m/s2)
 CATCHING = 0.3  # s, in which an error of the sink rate is made up
 
 
-class Rotor:
-    """An instance of the FMU, driven by a torque."""
-
-    def __init__(self, unzipped, description, parameters):
-        self.variables = {v.name: v for v in description.modelVariables}
-        self.choices = {
-            t.name: {item.name: int(item.value) for item in t.items}
-            for t in description.typeDefinitions
-            if t.items
-        }
-        self.slave = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=unzipped,
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName="rotor",
-        )
-        self.slave.instantiate()
-        for name, value in parameters.items():
-            self.set(name, value)
-        self.slave.setupExperiment(startTime=0.0)
-        self.slave.enterInitializationMode()
-        self.time = 0.0
-
-    def set(self, name, value):
-        """A number, a text, or the name of an enumeration's item."""
-        variable = self.variables[name]
-        reference = [variable.valueReference]
-        if variable.type == "Enumeration":
-            choice = self.choices[variable.declaredType.name][value]
-            self.slave.setInteger(reference, [choice])
-        elif variable.type == "Integer":
-            self.slave.setInteger(reference, [value])
-        elif variable.type == "String":
-            self.slave.setString(reference, [value])
-        else:
-            self.slave.setReal(reference, [value])
-
-    def get(self, name):
-        return self.slave.getReal([self.variables[name].valueReference])[0]
-
-    def flow_state(self):
-        """Name of the state of the flow through the rotor."""
-        (number,) = self.slave.getInteger([self.variables["flowState"].valueReference])
-        return next(name for name, n in self.choices["FlowState"].items() if n == number)
-
-    def start(self):
-        self.slave.exitInitializationMode()
-
-    def step(self, duration):
-        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=duration)
-        self.time += duration
-
-    def close(self):
-        self.slave.terminate()
-        self.slave.freeInstance()
-
-
 def hover_pitch(rotor):
     """The collective (deg) of hover, by the secant method; the rotor is being initialised at its rpm."""
 
     def excess(pitch):
-        rotor.set("collective", math.radians(pitch))
-        return rotor.get("thrust") - WEIGHT
+        rotor.set({"collective": math.radians(pitch)})
+        return rotor["thrust"] - WEIGHT
 
     before, pitch = 6.0, 10.0
     surplus_before, surplus = excess(before), excess(pitch)
@@ -224,17 +158,16 @@ class Pilot:
 
 def fly(rotor):
     """The rows of the table, a row for each step until touch-down, and the times of what happens."""
-    rotor.set("rpm", RPM)
-    rotor.set("heightAboveGround", START_HEIGHT)
+    rotor.set({"rpm": RPM, "heightAboveGround": START_HEIGHT})
     pitch = hover_pitch(rotor)
-    engine, pilot = Engine(rotor.get("torque")), Pilot(pitch)
-    rotor.set("driveTorque", rotor.get("torque"))
+    engine, pilot = Engine(rotor["torque"]), Pilot(pitch)
+    rotor.set({"driveTorque": rotor["torque"]})
     rotor.start()
 
     height, climb, rows = START_HEIGHT, 0.0, []
     while True:
-        speed = rotor.get("rotorSpeed") * math.pi / 30.0
-        thrust = rotor.get("force[3]")
+        speed = rotor["rotorSpeed"] * math.pi / 30.0
+        thrust = rotor["force[3]"]
         # No drag of the fuselage: it would be some per cent of the weight.
         acceleration = thrust / MASS - GRAVITY
         torque = engine.torque(rotor.time, speed)
@@ -245,13 +178,13 @@ def fly(rotor):
                 "height": height,
                 "sink_rate": -climb,
                 "collective": pitch,
-                "rpm": rotor.get("rotorSpeed"),
+                "rpm": rotor["rotorSpeed"],
                 "drive_torque": torque,
-                "rotor_torque": rotor.get("torque"),
+                "rotor_torque": rotor["torque"],
                 "thrust": thrust,
-                "induced_velocity": rotor.get("inducedVelocity"),
-                "stalled_fraction": rotor.get("stalledFraction"),
-                "flow_state": rotor.flow_state(),
+                "induced_velocity": rotor["inducedVelocity"],
+                "stalled_fraction": rotor["stalledFraction"],
+                "flow_state": rotor["flowState"],
             }
         )
         if height <= GROUND_HEIGHT:
@@ -261,10 +194,14 @@ def fly(rotor):
             show(rows[-1])
         if rotor.time > 120.0:
             raise RuntimeError("the helicopter does not come down")
-        rotor.set("collective", math.radians(pitch))
-        rotor.set("driveTorque", torque)
-        rotor.set("velocity[3]", climb)
-        rotor.set("heightAboveGround", height)
+        rotor.set(
+            {
+                "collective": math.radians(pitch),
+                "driveTorque": torque,
+                "velocity[3]": climb,
+                "heightAboveGround": height,
+            }
+        )
         rotor.step(STEP)
         # Symplectic Euler: the new speed moves the mass.
         climb += acceleration * STEP
@@ -355,16 +292,7 @@ def plot(rows, landing, file):
     speed_axis.set_ylim(200.0, 370.0)
     thrust_axis.set_xlabel("time, s")
     figure.suptitle("Engine failure in hover, vertical autorotation and landing: HelicopterRotor.fmu")
-    figure.savefig(file, dpi=130)
-    plt.close(figure)
-
-
-def write(rows, file):
-    """All rows of a table."""
-    with file.open("w", newline="", encoding="utf-8") as out:
-        writer = csv.DictWriter(out, fieldnames=list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)
+    save_plot(figure, file)
 
 
 def show(row):
@@ -377,29 +305,18 @@ def show(row):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
-    parser.add_argument("--out", type=Path, default=Path("."), help="folder for table and plot")
-    arguments = parser.parse_args()
-    if not arguments.fmu.is_file():
-        sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
-    arguments.out.mkdir(parents=True, exist_ok=True)
-
+    arguments = command_line(__doc__, out="folder for table and plot").parse_args()
     print("  time  height   sink  collective    rpm   thrust  flow")
     print("     s       m    m/s         deg               N")
-    with tempfile.TemporaryDirectory() as folder:
-        unzipped = extract(str(arguments.fmu), unzipdir=folder)
-        description = read_model_description(unzipped)
-        rotor = Rotor(unzipped, description, PARAMETERS)
+    with Rotor(arguments.fmu, PARAMETERS) as rotor:
         rows, landing = fly(rotor)
-        rotor.close()
     sink, speed, pitch = steady(rows, landing)
     print(
         f"Steady autorotation: {sink:.2f} m/s = {sink / HOVER_INFLOW:.2f} v_h at {speed:.0f} rpm,"
         f" collective {pitch:.2f} deg"
     )
     print(f"Touch-down: {rows[-1]['sink_rate']:.2f} m/s at {rows[-1]['rpm']:.0f} rpm")
-    write(rows, arguments.out / "engine-off.csv")
+    write_table(rows, arguments.out / "engine-off.csv")
     plot(rows, landing, arguments.out / "engine-off.png")
     print(f"Table and plot: {arguments.out / 'engine-off'}.csv, engine-off.png")
 

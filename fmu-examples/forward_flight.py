@@ -12,20 +12,12 @@ prints the trim and writes into FOLDER
     angle-of-attack.csv, .png    the angle of attack all over the disc at the highest advance ratio
 """
 
-import argparse
-import csv
 import math
-import sys
-import tempfile
-from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
-from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave
+
+from rotor import Rotor, unpacked
+from script import command_line, plt, save_plot, write_table
 
 # The FMU's default rotor: untwisted blades, hinged at the shaft's axis; sea level.
 RPM = 960.0
@@ -48,7 +40,7 @@ MODELS = {"uniform": ("o", "", 2), "pittPetersDynamic": ("", "-", 6), "petersHe"
 DISC_MODEL = "pittPetersDynamic"
 TOLERANCE = 5e-4 * WEIGHT  # N, of the trim
 
-TURN = 60.0 / RPM  # s
+REVOLUTION = 60.0 / RPM  # s
 # Outputs of which means over a turn are taken, the forces that are trimmed first.
 MEANS = {
     "forward": "force[1]",
@@ -64,54 +56,20 @@ MEAN_POINTS = 36  # points of a turn over which the pulsating loads are averaged
 AZIMUTH_STEP = 2.0 * math.pi / MEAN_POINTS  # rad; with the default, 3 degrees, means differ by 0.1 %
 DISC_POINTS = 120  # points of the turn that is drawn
 STATIONS = range(1, 21)
+PARAMETERS = {
+    "flapping.enabled": True,
+    "flapping.inertia": INERTIA,
+    "numerics.azimuthStep": AZIMUTH_STEP,
+}
 
 
-class Rotor:
-    """An instance of the FMU with flapping blades and one inflow model."""
-
-    def __init__(self, unzipped, description, model):
-        self.reference = {v.name: v.valueReference for v in description.modelVariables}
-        choices = next(t for t in description.typeDefinitions if t.name == "InflowModel").items
-        number = next(int(item.value) for item in choices if item.name == model)
-        self.slave = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=unzipped,
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName=model,
-        )
-        self.slave.instantiate()
-        self.slave.setInteger([self.reference["models.inflow"]], [number])
-        self.slave.setBoolean([self.reference["flapping.enabled"]], [True])
-        parameters = [self.reference["flapping.inertia"], self.reference["numerics.azimuthStep"]]
-        self.slave.setReal(parameters, [INERTIA, AZIMUTH_STEP])
-        self.slave.setupExperiment(startTime=0.0)
-        self.slave.enterInitializationMode()
-        self.slave.setReal([self.reference["rpm"]], [RPM])
-        self.slave.exitInitializationMode()
-        self.time = 0.0
-
-    def set(self, collective, tilt, speed):
-        """Angles in degrees, forward speed in m/s."""
-        names = ["collective", "tilt", "velocity[1]"]
-        values = [math.radians(collective), math.radians(tilt), speed]
-        self.slave.setReal([self.reference[name] for name in names], values)
-
-    def step(self, duration):
-        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=duration)
-        self.time += duration
-
-    def turn(self, names, points):
-        """The named variables (columns) at `points` evenly spaced points of the next turn (rows)."""
-        references = [self.reference[name] for name in names]
-        rows = []
-        for _ in range(points):
-            self.step(TURN / points)
-            rows.append(self.slave.getReal(references))
-        return np.array(rows)
-
-    def close(self):
-        self.slave.terminate()
-        self.slave.freeInstance()
+def revolution(rotor, names, points):
+    """The named variables (columns) at `points` evenly spaced points of the next revolution (rows)."""
+    rows = []
+    for _ in range(points):
+        rotor.step(REVOLUTION / points)
+        rows.append(rotor.get(names))
+    return np.array(rows)
 
 
 class Flight:
@@ -127,11 +85,12 @@ class Flight:
 
     def excess(self, controls, speed):
         """Mean force beyond what level flight needs, forward and up, N."""
-        self.rotor.set(*controls, speed)
+        collective, tilt = map(math.radians, controls)
+        self.rotor.set({"collective": collective, "tilt": tilt, "velocity[1]": speed})
         for _ in range(self.settling):
-            self.rotor.step(TURN)
-        turn = self.rotor.turn(list(MEANS.values()), MEAN_POINTS)
-        self.means = dict(zip(MEANS, turn.mean(axis=0).tolist()))
+            self.rotor.step(REVOLUTION)
+        points = revolution(self.rotor, MEANS.values(), MEAN_POINTS)
+        self.means = dict(zip(MEANS, points.mean(axis=0).tolist()))
         return np.array([self.means["forward"] - drag(speed), self.means["up"] - WEIGHT])
 
     def trim(self, speed):
@@ -187,13 +146,14 @@ def fly(flight, model):
 def disc(rotor):
     """The advance ratio along the disc, and azimuths (deg), radii (r/R) and angles of attack (deg, a
     row for each azimuth) of blade 1 over a turn."""
-    mu, *radii = rotor.turn(["advanceRatio"] + [f"station[{k}].radius" for k in STATIONS], 1)[0]
+    names = ["advanceRatio"] + [f"station[{k}].radius" for k in STATIONS]
+    mu, *radii = revolution(rotor, names, 1)[0]
     names = ["azimuth"] + [f"station[{k}].angleOfAttack" for k in STATIONS]
-    turn = rotor.turn(names, DISC_POINTS)
-    # The azimuth grows without end.
-    azimuths = np.degrees(turn[:, 0]) % 360.0
+    points = revolution(rotor, names, DISC_POINTS)
+    # The azimuth grows from revolution to revolution.
+    azimuths = np.degrees(points[:, 0]) % 360.0
     order = np.argsort(azimuths)
-    return mu, azimuths[order], np.array(radii), np.degrees(turn[order, 1:])
+    return mu, azimuths[order], np.array(radii), np.degrees(points[order, 1:])
 
 
 def plot_sweep(rows, file):
@@ -245,8 +205,7 @@ def plot_sweep(rows, file):
     figure.legend(
         lines, MODELS, loc="outside upper center", ncols=3, frameon=False, title="Inflow model"
     )
-    figure.savefig(file, dpi=130)
-    plt.close(figure)
+    save_plot(figure, file)
 
 
 def plot_disc(mu, azimuths, radii, alpha, file):
@@ -292,53 +251,36 @@ def plot_disc(mu, azimuths, radii, alpha, file):
     axis.set_ylim(-1.22, 1.2)
     axis.set_aspect("equal")
     axis.axis("off")
-    figure.savefig(file, dpi=130)
-    plt.close(figure)
-
-
-def write(rows, file):
-    with file.open("w", newline="", encoding="utf-8") as out:
-        writer = csv.DictWriter(out, fieldnames=list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)
+    save_plot(figure, file)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
-    parser.add_argument("--out", type=Path, default=Path("."), help="folder for tables and plots")
-    arguments = parser.parse_args()
-    if not arguments.fmu.is_file():
-        sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
-    arguments.out.mkdir(parents=True, exist_ok=True)
-
+    arguments = command_line(__doc__, out="folder for tables and plots").parse_args()
     rows = []
     print("inflow                mu  collective   tilt  H-force   power  coning     a1     b1")
     print("                               deg     deg        N       W     deg    deg    deg")
-    with tempfile.TemporaryDirectory() as folder:
-        unzipped = extract(str(arguments.fmu), unzipdir=folder)
-        description = read_model_description(unzipped)
+    with unpacked(arguments.fmu) as folder:
         for model, (_, _, settling) in MODELS.items():
-            rotor = Rotor(unzipped, description, model)
-            for row in fly(Flight(rotor, settling), model):
-                rows.append(row)
-                print(
-                    f"{model:17s} {row['mu']:6.3f} {row['collective']:11.2f} {row['tilt']:6.2f}"
-                    f" {row['H']:8.2f} {row['power']:7.1f} {row['coning']:7.2f}"
-                    f" {row['a1']:6.2f} {row['b1']:6.2f}",
-                    flush=True,
-                )
-            if model == DISC_MODEL:
-                picture = disc(rotor)
-            rotor.close()
-    write(rows, arguments.out / "forward-flight.csv")
+            with Rotor(folder, PARAMETERS | {"models.inflow": model}) as rotor:
+                rotor.set({"rpm": RPM})
+                for row in fly(Flight(rotor, settling), model):
+                    rows.append(row)
+                    print(
+                        f"{model:17s} {row['mu']:6.3f} {row['collective']:11.2f} {row['tilt']:6.2f}"
+                        f" {row['H']:8.2f} {row['power']:7.1f} {row['coning']:7.2f}"
+                        f" {row['a1']:6.2f} {row['b1']:6.2f}",
+                        flush=True,
+                    )
+                if model == DISC_MODEL:
+                    picture = disc(rotor)
+    write_table(rows, arguments.out / "forward-flight.csv")
     mu, azimuths, radii, alpha = picture
     points = [
         {"azimuth": psi, "radius": r, "angle_of_attack": alpha[i, k]}
         for i, psi in enumerate(azimuths)
         for k, r in enumerate(radii)
     ]
-    write(points, arguments.out / "angle-of-attack.csv")
+    write_table(points, arguments.out / "angle-of-attack.csv")
     plot_sweep(rows, arguments.out / "forward-flight.png")
     plot_disc(mu, azimuths, radii, alpha, arguments.out / "angle-of-attack.png")
     for name in ("forward-flight", "angle-of-attack"):

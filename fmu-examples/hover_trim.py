@@ -14,20 +14,12 @@ prints the trim, step by step, and the eigenvalues, and writes into FOLDER
     step-response.csv, .png the linear model beside the FMU after a step of the collective
 """
 
-import argparse
 import math
-import sys
-import tempfile
-from ctypes import c_double
-from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
-from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Model, FMU2Slave
+
+from rotor import Rotor, unpacked
+from script import command_line, plt, save_plot
 
 # The FMU's default rotor at sea level.
 RADIUS = 0.762  # m
@@ -73,65 +65,6 @@ STEP = math.radians(0.5)  # of the collective
 STEP_TIME, STOP_TIME, INTERVAL = 0.05, 0.35, 0.001  # s
 
 
-class Rotor:
-    """An instance of the FMU, left in Initialization Mode; FMU2Model is Model Exchange, FMU2Slave Co-Simulation."""
-
-    def __init__(self, unzipped, description, parameters, interface=FMU2Model):
-        self.description = description
-        self.variables = {v.name: v for v in description.modelVariables}
-        self.fmu = interface(
-            guid=description.guid,
-            unzipDirectory=unzipped,
-            modelIdentifier=description.modelExchange.modelIdentifier,
-            instanceName="rotor",
-        )
-        self.fmu.instantiate()
-        for name, value in parameters.items():
-            variable = self.variables[name]
-            if variable.type == "Enumeration":
-                items = variable.declaredType.items
-                number = next(int(item.value) for item in items if item.name == value)
-                self.fmu.setInteger([variable.valueReference], [number])
-            else:
-                getattr(self.fmu, f"set{variable.type}")([variable.valueReference], [value])
-        self.fmu.setupExperiment(startTime=0.0)
-        self.fmu.enterInitializationMode()
-
-    def references(self, names):
-        return [self.variables[name].valueReference for name in names]
-
-    def set(self, values):
-        self.fmu.setReal(self.references(values), list(values.values()))
-
-    def get(self, names):
-        return np.array(self.fmu.getReal(self.references(names)))
-
-    def jacobian(self, unknowns, knowns):
-        """d unknowns/d knowns, column by column."""
-        rows = self.references(unknowns)
-        columns = [self.fmu.getDirectionalDerivative(rows, [known], [1.0]) for known in self.references(knowns)]
-        return np.array(columns).T
-
-    def start(self):
-        self.fmu.exitInitializationMode()
-        self.fmu.newDiscreteStates()
-        self.fmu.enterContinuousTimeMode()
-
-    def set_states(self, values):
-        """The named continuous states; all others as they are."""
-        count = self.description.numberOfContinuousStates
-        vector = (c_double * count)()
-        self.fmu.getContinuousStates(vector, count)
-        order = [unknown.variable.derivative.name for unknown in self.description.derivatives]
-        for name, value in values.items():
-            vector[order.index(name)] = value
-        self.fmu.setContinuousStates(vector, count)
-
-    def close(self):
-        self.fmu.terminate()
-        self.fmu.freeInstance()
-
-
 def trim(rotor, wanted, guess):
     """The inputs named in `guess` with which the outputs are as `wanted`, and the residual of each step."""
     controls = np.array(list(guess.values()))
@@ -139,7 +72,7 @@ def trim(rotor, wanted, guess):
     residuals = []
     while True:
         rotor.set(dict(zip(guess, controls)))
-        excess = rotor.get(wanted) - list(wanted.values())
+        excess = np.subtract(rotor.get(wanted), list(wanted.values()))
         residuals.append(float(np.abs(excess / scale).max()))
         if residuals[-1] < TOLERANCE:
             return dict(zip(guess, controls.tolist())), residuals
@@ -191,23 +124,21 @@ def linear_response(a, b, c, d, times):
     return y @ c.T + np.where(since > 0.0, d[:, 0] * STEP, 0.0)
 
 
-def fly(unzipped, description, inputs, step):
+def fly(fmu, inputs, step):
     """Times and outputs (rows) of the FMU itself, in Co-Simulation, with a step of the collective at STEP_TIME."""
-    rotor = Rotor(unzipped, description, PARAMETERS, FMU2Slave)
-    rotor.set(inputs)
-    rotor.fmu.exitInitializationMode()
-    rows = [rotor.get(OUTPUTS)]
     times = np.arange(round(STOP_TIME / INTERVAL) + 1) * INTERVAL
-    for time in times[:-1]:
-        if abs(time - STEP_TIME) < 0.5 * INTERVAL:
-            rotor.set({"collective": inputs["collective"] + step})
-        rotor.fmu.doStep(currentCommunicationPoint=time, communicationStepSize=INTERVAL)
-        rows.append(rotor.get(OUTPUTS))
-    rotor.close()
+    with Rotor(fmu, PARAMETERS) as rotor:
+        rotor.set(inputs)
+        rows = [rotor.get(OUTPUTS)]
+        for time in times[:-1]:
+            if abs(time - STEP_TIME) < 0.5 * INTERVAL:
+                rotor.set({"collective": inputs["collective"] + step})
+            rotor.step(INTERVAL)
+            rows.append(rotor.get(OUTPUTS))
     return times, np.array(rows)
 
 
-def hover_in_still_air(unzipped, description):
+def hover_in_still_air(fmu):
     """Eigenvalues of the inflow over rigid blades with a lift slope of 2 pi, those of theory, and the Newton steps."""
     parameters = {
         "models.inflow": "pittPetersDynamic",
@@ -215,12 +146,11 @@ def hover_in_still_air(unzipped, description):
         "models.tipLoss": "none",
         "models.compressibility": "none",
     }
-    rotor = Rotor(unzipped, description, parameters)
-    _, residuals = trim(rotor, {"force[3]": WEIGHT}, {"collective": ROUGH["collective"]})
-    rotor.start()
-    a = rotor.jacobian([f"der({name})" for name in INFLOW], INFLOW)
-    (v0,) = rotor.get(["inducedVelocity"])
-    rotor.close()
+    with Rotor(fmu, parameters, "ModelExchange") as rotor:
+        _, residuals = trim(rotor, {"force[3]": WEIGHT}, {"collective": ROUGH["collective"]})
+        rotor.start()
+        a = rotor.jacobian([f"der({name})" for name in INFLOW], INFLOW)
+        v0 = rotor["inducedVelocity"]
     # Apparent mass against the wake, 2 v^2, and the lift of the blades, with small angles (Pitt & Peters 1981).
     blades = 2.0 * math.pi * BLADES * CHORD / (math.pi * RADIUS) * SPEED * RADIUS
     mean = -(4.0 * v0 + blades * (1.0 - CUTOUT**2) / 4.0) / (RADIUS * 8.0 / (3.0 * math.pi))
@@ -242,8 +172,7 @@ def plot(times, flown, linear, file):
     axes[0].legend()
     axes[0].set_title(f"Hover in a wind: collective raised by {math.degrees(STEP):g} deg at {1e3 * STEP_TIME:g} ms")
     axes[1].set_xlabel("time, ms")
-    figure.savefig(file, dpi=130)
-    plt.close(figure)
+    save_plot(figure, file)
 
 
 def show(title, residuals):
@@ -252,41 +181,33 @@ def show(title, residuals):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
-    parser.add_argument("--out", type=Path, default=Path("."), help="folder for the model, the table and the plot")
-    arguments = parser.parse_args()
-    if not arguments.fmu.is_file():
-        sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
+    help_text = "folder for the model, the table and the plot"
+    arguments = command_line(__doc__, out=help_text).parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
 
-    with tempfile.TemporaryDirectory() as folder:
-        unzipped = extract(str(arguments.fmu), unzipdir=folder)
-        description = read_model_description(unzipped)
-
-        rotor = Rotor(unzipped, description, PARAMETERS)
-        rotor.set(WIND)
-        controls, residuals = trim(rotor, TRIMMED, ROUGH)
-        show("Trim in the wind", residuals)
-        for name, value in controls.items():
-            print(f"  {name:18s} {math.degrees(value):8.4f} deg")
-        rotor.start()
-        a, b, c, d = linear_model(rotor)
-        rotor.close()
+    with unpacked(arguments.fmu) as fmu:
+        with Rotor(fmu, PARAMETERS, "ModelExchange") as rotor:
+            rotor.set(WIND)
+            controls, residuals = trim(rotor, TRIMMED, ROUGH)
+            show("Trim in the wind", residuals)
+            for name, value in controls.items():
+                print(f"  {name:18s} {math.degrees(value):8.4f} deg")
+            rotor.start()
+            a, b, c, d = linear_model(rotor)
         print("Eigenvalues of the linear model, 1/s, and their frequencies per turn")
         for value in sorted(np.linalg.eigvals(a), key=lambda v: (v.real, v.imag)):
             if value.imag >= 0.0:
                 print(f"  eigenvalue {value.real:9.2f} +- {value.imag:7.2f} i   {abs(value) / SPEED:.3f}")
 
-        still, theory, still_residuals = hover_in_still_air(unzipped, description)
+        still, theory, still_residuals = hover_in_still_air(fmu)
         show("Rigid blades in still air", still_residuals)
         print("Eigenvalues of their inflow, 1/s: mean, slope fore and aft, slope to the side")
         print("  linear model " + " ".join(f"{value:9.3f}" for value in still))
         print("  theory       " + " ".join(f"{value:9.3f}" for value in theory))
 
         inputs = WIND | controls
-        times, flown = fly(unzipped, description, inputs, STEP)
-        _, held = fly(unzipped, description, inputs, 0.0)
+        times, flown = fly(fmu, inputs, STEP)
+        _, held = fly(fmu, inputs, 0.0)
 
     # The linear model adds to the mean of the trim; the FMU's loads pulsate about it, from blade to blade.
     linear = held.mean(axis=0) + linear_response(a, b, c, d, times)

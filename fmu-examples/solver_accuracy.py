@@ -13,19 +13,13 @@ largest magnitude of the output.
 prints the errors and writes them into FOLDER as solver-accuracy.csv and solver-accuracy.png.
 """
 
-import argparse
-import csv
 import math
-import sys
-import tempfile
-from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
-from fmpy import extract, read_model_description, simulate_fmu
+from fmpy import read_model_description, simulate_fmu
+
+from rotor import as_numbers, unpacked
+from script import command_line, plt, save_plot, write_table
 
 FINEST = 0.001  # rad, numerics.azimuthStep of the run that the others are compared with
 TOLERANCES = [10.0**-k for k in range(3, 10)]
@@ -73,15 +67,7 @@ class Manoeuvre:
     def __init__(self, unzipped, description, name):
         self.duration, parameters, jump, self.outputs, _ = MANOEUVRES[name]
         self.unzipped, self.description = unzipped, description
-        variables = {v.name: v for v in description.modelVariables}
-
-        def number(name, value):
-            """FMPy takes enumerations as numbers."""
-            if variables[name].type != "Enumeration":
-                return value
-            return next(item.value for item in variables[name].declaredType.items if item.name == value)
-
-        self.start = {name: number(name, value) for name, value in parameters.items()}
+        self.start = as_numbers(description, parameters)
         # All inputs, as FMPy warns of those that are missing; two rows at one time make a jump.
         inputs = {v.name: (v.start, v.start) for v in description.modelVariables if v.causality == "input"}
         inputs |= {name: (value, value) for name, value in parameters.items() if name in inputs}
@@ -160,33 +146,25 @@ def plot(found, file):
     for axis in (left, right):
         axis.grid(True, color="0.88")
         axis.legend(frameon=False)
-    figure.savefig(file, dpi=130)
-    plt.close(figure)
+    save_plot(figure, file)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
-    parser.add_argument("--out", type=Path, default=Path("."), help="folder for the table and the plot")
-    arguments = parser.parse_args()
-    if not arguments.fmu.is_file():
-        sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
-    arguments.out.mkdir(parents=True, exist_ok=True)
-
+    arguments = command_line(__doc__, out="folder for the table and the plot").parse_args()
     found, rows = {}, []
-    with tempfile.TemporaryDirectory() as folder:
-        unzipped = extract(str(arguments.fmu), unzipdir=folder)
-        description = read_model_description(unzipped)
+    with unpacked(arguments.fmu) as folder:
+        description = read_model_description(folder)
         for name in MANOEUVRES:
-            found[name] = errors(Manoeuvre(unzipped, description, name))
+            found[name] = errors(Manoeuvre(folder, description, name))
             kinds = (("ModelExchange", "relative tolerance"), ("CoSimulation", "azimuth step, deg"))
-            for (interface, what), pairs in zip(kinds, found[name]):
+            for (interface, setting), pairs in zip(kinds, found[name]):
                 print(f"{name}, {interface}: order {order(pairs):.2f}", flush=True)
-                print(f"  {what:20s}" + "".join(f"{setting:9.2g}" for setting, _ in pairs))
+                print(f"  {setting:20s}" + "".join(f"{value:9.2g}" for value, _ in pairs))
                 print(f"  {'largest error':20s}" + "".join(f"{error:9.1e}" for _, error in pairs))
-                rows += [(name.replace(" ", "-"), interface, setting, error) for setting, error in pairs]
-    with (arguments.out / "solver-accuracy.csv").open("w", newline="", encoding="utf-8") as file:
-        csv.writer(file).writerows([("manoeuvre", "interface", "setting", "error"), *rows])
+                for value, error in pairs:
+                    row = {"manoeuvre": name.replace(" ", "-"), "interface": interface}
+                    rows.append(row | {"setting": value, "error": error})
+    write_table(rows, arguments.out / "solver-accuracy.csv")
     plot(found, arguments.out / "solver-accuracy.png")
     print(f"Table and plot: {arguments.out / 'solver-accuracy'}.csv, .png")
 
