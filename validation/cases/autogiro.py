@@ -139,7 +139,7 @@ def mean_flight(rotor, chosen, mu, alpha):
     """Means over a blade passage at a shaft angle; the air comes from below the disc."""
     rpm = at("N_rpm", mu)
     along = edgewise(mu, rpm)
-    rotor.start({**chosen, "rpm": rpm, "velocity[1]": along, "velocity[3]": -along * math.tan(alpha)})
+    rotor.begin({**chosen, "rpm": rpm, "velocity[1]": along, "velocity[3]": -along * math.tan(alpha)})
     step = 60.0 / rpm / 120.0
     return np.mean([rotor.fly(OUTPUTS, step) for _ in range(STEPS)], axis=0)
 
@@ -180,7 +180,7 @@ def settle(rotor, chosen, mu, rpm):
     speeds = {}
 
     def surplus(alpha):
-        rotor.start({**free, "velocity[3]": -along * math.tan(alpha)})
+        rotor.begin({**free, "velocity[3]": -along * math.tan(alpha)})
         rotor.fly(("thrust",), SETTLING)
         last = [rotor.fly(("thrust", "rotorSpeed"), 0.02) for _ in range(20)]
         thrust, speeds[alpha] = np.mean(last, axis=0)

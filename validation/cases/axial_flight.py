@@ -40,10 +40,10 @@ def fly(rotor, task, resources):
         )
         chosen = {**own, "collective": math.radians(pitch)}
         # V_h is that of the disc in hover, the same for all lines of a rotor.
-        rotor.start({**chosen, **SETTINGS["disc"]})
+        rotor.begin({**chosen, **SETTINGS["disc"]})
         hover = rotors.hover_speed(rotor.fly(OUTPUTS)[0], radius, rpm)
         chosen |= SETTINGS[name]
-        rotor.start(chosen)
+        rotor.begin(chosen)
         flights = [rotor.fly(OUTPUTS, **{"velocity[3]": ratio * hover}) for ratio in RATIOS]
         return {"flights": flights, "hover": hover, "models": rotor.models(chosen)}
 

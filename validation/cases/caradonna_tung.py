@@ -39,7 +39,7 @@ def parameters(rule, pitch, rpm, mach):
 
 def fly(rotor, task, _resources):
     def thrust(pitch, rpm, mach):
-        rotor.start(parameters(task, pitch, rpm, mach))
+        rotor.begin(parameters(task, pitch, rpm, mach))
         return rotor.fly(("thrustCoefficient",))[0]
 
     # The lines have the Mach number by the rotor's speed in air of 16 degrees Celsius, as the tests had.
@@ -51,7 +51,7 @@ def fly(rotor, task, _resources):
     }
     case = measured.rows(LIFT)[0]
     chosen = parameters(task, case["collective_deg"], case["rpm"], case["M_tip"])
-    rotor.start(chosen)
+    rotor.begin(chosen)
     stations = lambda name: rotor.fly([f"station[{i}].{name}" for i in STATIONS])
     found["radius"], found["lift"] = stations("radius"), stations("liftCoefficient")
     found["models"] = rotor.models(chosen)

@@ -35,7 +35,7 @@ def is_compared(row):
 
 def fly(rotor, task, _resources):
     parameters = {**rotors.CASTLES_GRAY, "rpm": float(task)}
-    rotor.start(parameters)
+    rotor.begin(parameters)
 
     def at(pitch):
         thrust, torque = rotor.fly(OUTPUTS, collective=math.radians(pitch))

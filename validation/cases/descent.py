@@ -71,7 +71,7 @@ def fly(rotor, task, _resources):
         return drags[rpm]
 
     drags = {}
-    rotor.start(parameters)
+    rotor.begin(parameters)
     return {
         "points": [trimmed(r["CT"], r["rpm"], r["lambda_z"]) for r in rows()],
         "lines": [[trimmed(ct, rpm, d) for d in DESCENTS] for ct, rpm in LINES],

@@ -41,7 +41,7 @@ def fly(rotor, task, resources):
         }
         values, times = [], []
         for count in COUNTS:
-            rotor.start({**chosen, "numerics.elements": count})
+            rotor.begin({**chosen, "numerics.elements": count})
             values.append(rotor.fly(OUTPUTS))
             begin = time.perf_counter()
             for i in range(SOLVES):

@@ -37,7 +37,7 @@ def fly(rotor, task, resources):
         else:
             parameters = rotors.knight_hefner(blades)
         parameters["models.lift"] = lift
-        rotor.start(parameters)
+        rotor.begin(parameters)
         at = lambda pitch: rotor.fly(OUTPUTS, collective=math.radians(pitch))
         return {
             "line": [at(pitch) for pitch in PITCHES],

@@ -36,10 +36,10 @@ def fly(rotor, task, resources):
             "models.tipLoss": "prandtl",
             "models.inflow": "annulus",
         }
-        rotor.start({**chosen, "models.lift": "slopesByReynolds", "models.compressibility": "none"})
+        rotor.begin({**chosen, "models.lift": "slopesByReynolds", "models.compressibility": "none"})
         hover = rotors.hover_speed(rotor.fly(OUTPUTS)[0], radius, rpm)
         chosen["models.lift"] = lift
-        rotor.start(chosen)
+        rotor.begin(chosen)
         flights = [rotor.fly(OUTPUTS, **{"velocity[3]": ratio * hover}) for ratio in RATIOS]
         return {"flights": flights, "models": rotor.models(chosen)}
 

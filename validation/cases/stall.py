@@ -30,7 +30,7 @@ def fly(rotor, task, resources):
     with rotors.own_folder() as folder:
         own = rotors.THESIS if case == "thesis" else rotors.knight_hefner_slopes(4, resources, Path(folder))
         chosen = {**own, **SETTINGS[setting], "numerics.elements": ELEMENTS}
-        rotor.start(chosen)
+        rotor.begin(chosen)
         stations = lambda name, pitch: rotor.fly(
             [f"station[{i}].{name}" for i in STATIONS], collective=math.radians(pitch)
         )
