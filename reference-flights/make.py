@@ -10,15 +10,18 @@ writes below FOLDER, which is the source tree or has its shape,
     reference-flights/cross-check/                        the first experiment in the form of the FMI cross-check
 """
 
-import argparse
 import sys
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
 
+# The rotor is that of the examples.
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "fmu-examples"))
+
 from experiments import EXPERIMENTS, HOVER
 from fly import converged, inputs_at
+from script import command_line
 
 LAYERED_STANDARD = Path("modelDescription/extra/org.fmi-standard.fmi-ls-ref")
 CROSS_CHECK = Path("reference-flights/cross-check")
@@ -162,9 +165,7 @@ def options(experiment):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
-    parser.add_argument("--out", type=Path, required=True, help="the source tree")
+    parser = command_line(__doc__, out="the source tree", out_required=True)
     arguments = parser.parse_args()
 
     # All are flown before the first file is written.
