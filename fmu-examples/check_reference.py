@@ -26,7 +26,9 @@ from script import command_line
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
 TOLERANCE = 1.0  # %
-SOLVER_TOLERANCE = 1e-6  # relative, of CVode in Model Exchange: its errors are far below those that are looked for
+SOLVER_TOLERANCE = (
+    1e-6  # relative, of CVode in Model Exchange: its errors are far below those that are looked for
+)
 SAME_TIME = 1e-6  # s
 
 
@@ -119,14 +121,18 @@ def deviations(result, reference):
 
 def main():
     parser = command_line(__doc__)
-    parser.add_argument("--results", type=Path, help="folder with <experiment>.csv of another importer")
+    parser.add_argument(
+        "--results", type=Path, help="folder with <experiment>.csv of another importer"
+    )
     parser.add_argument(
         "--interface",
         choices=["CoSimulation", "ModelExchange"],
         default="CoSimulation",
         help="what FMPy flies [default: %(default)s]",
     )
-    parser.add_argument("--tolerance", type=float, default=TOLERANCE, help="in %% [default: %(default)s]")
+    parser.add_argument(
+        "--tolerance", type=float, default=TOLERANCE, help="in %% [default: %(default)s]"
+    )
     arguments = parser.parse_args()
 
     failed = []
@@ -142,7 +148,9 @@ def main():
                 for output, deviation, time in deviations(result, experiment.reference):
                     print(f"{experiment.name:12}  {output:22}  {deviation:12.4f}  {time:6.3f}")
                     if not deviation <= arguments.tolerance:
-                        failed.append(f"{experiment.name}: {output} is off by {deviation:.3g} % at {time:g} s")
+                        failed.append(
+                            f"{experiment.name}: {output} is off by {deviation:.3g} % at {time:g} s"
+                        )
             except (OSError, ValueError) as error:
                 failed.append(f"{experiment.name}: {error}")
     if failed:

@@ -123,7 +123,9 @@ class Pilot:
 
     def __init__(self, pitch):
         self.pitch = pitch
-        self.held = None  # the pitch that the rotor speed needs in autorotation, once it turns fast again
+        self.held = (
+            None  # the pitch that the rotor speed needs in autorotation, once it turns fast again
+        )
         self.landing = None
 
     def move(self, time, height, sink, acceleration, speed):
@@ -226,7 +228,9 @@ def plot(rows, landing, file):
         "turbulentWake": ("turbulent wake", "#b5cde8"),
         "windmillBrake": ("windmill brake", "#8f9fc4"),
     }
-    starts = [i for i in range(len(rows)) if i == 0 or rows[i]["flow_state"] != rows[i - 1]["flow_state"]]
+    starts = [
+        i for i in range(len(rows)) if i == 0 or rows[i]["flow_state"] != rows[i - 1]["flow_state"]
+    ]
     bands = [
         (times[i], end if j is None else times[j], rows[i]["flow_state"])
         for i, j in zip(starts, [*starts[1:], None])
@@ -279,7 +283,9 @@ def plot(rows, landing, file):
     sink_axis.text(16.0, sink - 1.0, words, va="top", fontsize=9)
     last = rows[-1]
     note = {"ha": "right", "va": "center", "fontsize": 9, "arrowprops": {"arrowstyle": "-"}}
-    sink_axis.annotate(f"{last['sink_rate']:.1f} m/s", (end, last["sink_rate"]), (end - 2.2, 2.0), **note)
+    sink_axis.annotate(
+        f"{last['sink_rate']:.1f} m/s", (end, last["sink_rate"]), (end - 2.2, 2.0), **note
+    )
     pitch_axis.text(16.0, pitch + 1.0, f"{pitch:.1f} deg", va="bottom", fontsize=9)
     speed_axis.axhline(RPM, color="black", linewidth=0.9, linestyle="--")
     speed_axis.text(16.0, RPM - 6.0, "held by the collective", va="top", fontsize=9)
@@ -291,7 +297,9 @@ def plot(rows, landing, file):
         axis.set_ylim(bottom=-0.02 * axis.get_ylim()[1])
     speed_axis.set_ylim(200.0, 370.0)
     thrust_axis.set_xlabel("time, s")
-    figure.suptitle("Engine failure in hover, vertical autorotation and landing: HelicopterRotor.fmu")
+    figure.suptitle(
+        "Engine failure in hover, vertical autorotation and landing: HelicopterRotor.fmu"
+    )
     save_plot(figure, file)
 
 

@@ -53,7 +53,9 @@ MEANS = {
     "b1": "lateralFlapping",
 }
 MEAN_POINTS = 36  # points of a turn over which the pulsating loads are averaged
-AZIMUTH_STEP = 2.0 * math.pi / MEAN_POINTS  # rad; with the default, 3 degrees, means differ by 0.1 %
+AZIMUTH_STEP = (
+    2.0 * math.pi / MEAN_POINTS
+)  # rad; with the default, 3 degrees, means differ by 0.1 %
 DISC_POINTS = 120  # points of the turn that is drawn
 STATIONS = range(1, 21)
 PARAMETERS = {

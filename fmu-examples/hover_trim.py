@@ -54,10 +54,19 @@ ROUGH = {
 }  # rad
 TOLERANCE = 1e-6  # of the weight, and of the weight times the radius
 
-INPUTS = ["collective", "cyclicLongitudinal", "cyclicLateral", "velocity[1]", "velocity[2]", "velocity[3]"]
+INPUTS = [
+    "collective",
+    "cyclicLongitudinal",
+    "cyclicLateral",
+    "velocity[1]",
+    "velocity[2]",
+    "velocity[3]",
+]
 OUTPUTS = ["force[1]", "force[2]", "force[3]", "hubMoment[1]", "hubMoment[2]", "coning"]
 INFLOW = [f"state.inflow[{i}]" for i in (1, 2, 3)]
-FLAPPING = [f"state.{kind}[{i}]" for kind in ("flapAngle", "flapRate") for i in range(1, BLADES + 1)]
+FLAPPING = [
+    f"state.{kind}[{i}]" for kind in ("flapAngle", "flapRate") for i in range(1, BLADES + 1)
+]
 MULTIBLADE = ["b0", "b1c", "b1s", "bd"]  # coning, to the rear, to the advancing side, differential
 AZIMUTHS = 12  # over which the linear model is a mean, from blade to blade
 
@@ -170,7 +179,9 @@ def plot(times, flown, linear, file):
         axis.set_ylabel(label)
         axis.grid(True, color="0.85")
     axes[0].legend()
-    axes[0].set_title(f"Hover in a wind: collective raised by {math.degrees(STEP):g} deg at {1e3 * STEP_TIME:g} ms")
+    axes[0].set_title(
+        f"Hover in a wind: collective raised by {math.degrees(STEP):g} deg at {1e3 * STEP_TIME:g} ms"
+    )
     axes[1].set_xlabel("time, ms")
     save_plot(figure, file)
 
@@ -197,7 +208,9 @@ def main():
         print("Eigenvalues of the linear model, 1/s, and their frequencies per turn")
         for value in sorted(np.linalg.eigvals(a), key=lambda v: (v.real, v.imag)):
             if value.imag >= 0.0:
-                print(f"  eigenvalue {value.real:9.2f} +- {value.imag:7.2f} i   {abs(value) / SPEED:.3f}")
+                print(
+                    f"  eigenvalue {value.real:9.2f} +- {value.imag:7.2f} i   {abs(value) / SPEED:.3f}"
+                )
 
         still, theory, still_residuals = hover_in_still_air(fmu)
         show("Rigid blades in still air", still_residuals)
@@ -211,7 +224,9 @@ def main():
 
     # The linear model adds to the mean of the trim; the FMU's loads pulsate about it, from blade to blade.
     linear = held.mean(axis=0) + linear_response(a, b, c, d, times)
-    print(f"Mean loads of the trim: {', '.join(f'{value:.4f}' for value in held.mean(axis=0)[:5])} N, N.m")
+    print(
+        f"Mean loads of the trim: {', '.join(f'{value:.4f}' for value in held.mean(axis=0)[:5])} N, N.m"
+    )
     np.savez(
         arguments.out / "hover-trim.npz",
         **dict(A=a, B=b, C=c, D=d, inputs=INPUTS, outputs=OUTPUTS),
@@ -224,10 +239,14 @@ def main():
         np.column_stack([times, flown, held, linear]),
         delimiter=",",
         comments="",
-        header=",".join(["time", *(f"{kind}:{name}" for kind in ("step", "held", "linear") for name in OUTPUTS)]),
+        header=",".join(
+            ["time", *(f"{kind}:{name}" for kind in ("step", "held", "linear") for name in OUTPUTS)]
+        ),
     )
     plot(times, flown, linear, arguments.out / "step-response.png")
-    print(f"Written: {arguments.out / 'hover-trim'}.npz, {arguments.out / 'step-response'}.csv, .png")
+    print(
+        f"Written: {arguments.out / 'hover-trim'}.npz, {arguments.out / 'step-response'}.csv, .png"
+    )
 
 
 if __name__ == "__main__":

@@ -106,7 +106,9 @@ def plot(rows, rotor, file):
         axis.ticklabel_format(axis="y", style="sci", scilimits=(0, 0), useMathText=True)
         axis.grid(True, color="0.85")
     axes[0].legend(frameon=False)
-    figure.suptitle("Hover: HelicopterRotor.fmu and the rotors of Knight & Hefner (1937), NACA TN 626")
+    figure.suptitle(
+        "Hover: HelicopterRotor.fmu and the rotors of Knight & Hefner (1937), NACA TN 626"
+    )
     save_plot(figure, file)
 
 

@@ -74,7 +74,9 @@ class Rotor:
 
     def __init__(self, fmu, parameters=None, interface="CoSimulation"):
         if interface not in INTERFACES:
-            raise RotorError(f"there is no interface {interface}; take one of {', '.join(INTERFACES)}")
+            raise RotorError(
+                f"there is no interface {interface}; take one of {', '.join(INTERFACES)}"
+            )
         self.interface = interface
         self.time = 0.0  # s
         self._is_started = False

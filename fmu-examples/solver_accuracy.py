@@ -69,7 +69,9 @@ class Manoeuvre:
         self.unzipped, self.description = unzipped, description
         self.start = as_numbers(description, parameters)
         # All inputs, as FMPy warns of those that are missing; two rows at one time make a jump.
-        inputs = {v.name: (v.start, v.start) for v in description.modelVariables if v.causality == "input"}
+        inputs = {
+            v.name: (v.start, v.start) for v in description.modelVariables if v.causality == "input"
+        }
         inputs |= {name: (value, value) for name, value in parameters.items() if name in inputs}
         inputs |= jump
         columns = {name: [before, before, after, after] for name, (before, after) in inputs.items()}
@@ -126,7 +128,9 @@ def order(pairs):
 
 
 def plot(found, file):
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.6), constrained_layout=True, sharey=True)
+    figure, (left, right) = plt.subplots(
+        1, 2, figsize=(9.5, 4.6), constrained_layout=True, sharey=True
+    )
     for name, (exchange, simulation) in found.items():
         for axis, pairs in ((left, exchange), (right, simulation)):
             style = {"marker": MANOEUVRES[name][-1], "color": "black", "markerfacecolor": "white"}

@@ -71,7 +71,9 @@ def csv(names, rows):
 
 def stimuli(experiment):
     """A row at each communication point, so that reading between the rows or holding them is the same."""
-    times = [round(i * experiment.step, 9) for i in range(round(experiment.stop / experiment.step) + 1)]
+    times = [
+        round(i * experiment.step, 9) for i in range(round(experiment.stop / experiment.step) + 1)
+    ]
     rows = [[time, *inputs_at(experiment, time).values()] for time in times]
     return csv(experiment.inputs, rows)
 
@@ -149,11 +151,21 @@ def manifest():
         name = experiment.name
         if experiment.parameters:
             related(
-                "application/x-ssp-parameter-set", f"{name}.ssv", "parameter", f"Parameters of the experiment {name}"
+                "application/x-ssp-parameter-set",
+                f"{name}.ssv",
+                "parameter",
+                f"Parameters of the experiment {name}",
             )
         related("text/csv", f"{name}_in.csv", "other", f"Inputs of the experiment {name}")
-        related("text/csv", f"{name}_ref.csv", "result", f"Expected outputs of the experiment {name}")
-    related("text/html", "../../documentation/fmi-ls-ref.html", "document", "What the experiments are and how to compare")
+        related(
+            "text/csv", f"{name}_ref.csv", "result", f"Expected outputs of the experiment {name}"
+        )
+    related(
+        "text/html",
+        "../../documentation/fmi-ls-ref.html",
+        "document",
+        "What the experiments are and how to compare",
+    )
     return xml(root)
 
 

@@ -45,7 +45,17 @@ def number(value, unit, signed=False):
 
 def error_table(rows):
     """Errors of one case, all in their units."""
-    header = ["quantity", "model", "points", "mean", "mean of magnitudes", "RMS", "worst", "scatter", "unit"]
+    header = [
+        "quantity",
+        "model",
+        "points",
+        "mean",
+        "mean of magnitudes",
+        "RMS",
+        "worst",
+        "scatter",
+        "unit",
+    ]
     cells = [
         [
             e.quantity,

@@ -16,8 +16,20 @@ CHOSEN = [
     (HOVER_2, "CT", "both speeds", "defaults", "Castles & Gray, hover: CT"),
     (HOVER_2, "CQ rise", "both speeds", "defaults", "Castles & Gray, hover: CQ rise"),
     (HOVER_3, "CT", "prandtlGlauert", "defaults", "Caradonna & Tung, hover: CT"),
-    (DESCENT, "collective", "measured (fitted), annulus", f"defaults; {MEASURED}", "descent: collective"),
-    (DESCENT, "collective", "measured (fitted), uniform", f"`uniform`; {MEASURED}", "the same, uniform"),
+    (
+        DESCENT,
+        "collective",
+        "measured (fitted), annulus",
+        f"defaults; {MEASURED}",
+        "descent: collective",
+    ),
+    (
+        DESCENT,
+        "collective",
+        "measured (fitted), uniform",
+        f"`uniform`; {MEASURED}",
+        "the same, uniform",
+    ),
     (
         DESCENT,
         "inflow, in deg of collective",
@@ -25,8 +37,20 @@ CHOSEN = [
         "law `measured`, fitted to the other half of the runs",
         "the same, law fitted to the other runs",
     ),
-    (DESCENT, "collective", "johnson, uniform", "`uniform`, descent `johnson`", "the same, johnson"),
-    (DESCENT, "collective", "momentum, uniform", "`uniform`, descent `momentum`", "the same, momentum"),
+    (
+        DESCENT,
+        "collective",
+        "johnson, uniform",
+        "`uniform`, descent `johnson`",
+        "the same, johnson",
+    ),
+    (
+        DESCENT,
+        "collective",
+        "momentum, uniform",
+        "`uniform`, descent `momentum`",
+        "the same, momentum",
+    ),
     (FORWARD, "coning", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: coning"),
     (
         FORWARD,
@@ -35,7 +59,13 @@ CHOSEN = [
         "`pittPetersDynamic`",
         "autogiro: longitudinal flapping",
     ),
-    (FORWARD, "lateral flapping", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: lateral flapping"),
+    (
+        FORWARD,
+        "lateral flapping",
+        "pittPetersDynamic",
+        "`pittPetersDynamic`",
+        "autogiro: lateral flapping",
+    ),
     (FORWARD, "lateral flapping", "annulus", "`annulus`", "the same, annulus"),
     (FORWARD, "shaft angle", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: shaft angle"),
     (FORWARD, "CT", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: CT"),
@@ -45,7 +75,9 @@ CHOSEN = [
 
 def chosen(rows):
     by = {(e.case, e.quantity, e.model): e for e in rows}
-    return [(by[case, quantity, model], name, short) for case, quantity, model, name, short in CHOSEN]
+    return [
+        (by[case, quantity, model], name, short) for case, quantity, model, name, short in CHOSEN
+    ]
 
 
 def table(rows):
@@ -55,7 +87,17 @@ def table(rows):
         scatter = said(e.scatter) if e.scatter is not None else "-"
         means = said(e.mean, True), said(e.mean_absolute), said(e.rms), said(e.worst, True)
         cells.append([e.case, e.quantity, name, e.points, *means, scatter])
-    header = ["case", "quantity", "models", "points", "mean", "mean of magnitudes", "RMS", "worst", "scatter"]
+    header = [
+        "case",
+        "quantity",
+        "models",
+        "points",
+        "mean",
+        "mean of magnitudes",
+        "RMS",
+        "worst",
+        "scatter",
+    ]
     return page.table(header, cells, 3)
 
 
@@ -69,9 +111,20 @@ def draw(rows, file):
         for i, (e, _) in enumerate(own):
             once = i == 0
             axis.barh(
-                i, e.rms, color="0.82", edgecolor="black", linewidth=0.6, label="RMS error" if once else None
+                i,
+                e.rms,
+                color="0.82",
+                edgecolor="black",
+                linewidth=0.6,
+                label="RMS error" if once else None,
             )
-            axis.plot([abs(e.mean)], [i], "kD", markersize=4, label="mean error, magnitude" if once else None)
+            axis.plot(
+                [abs(e.mean)],
+                [i],
+                "kD",
+                markersize=4,
+                label="mean error, magnitude" if once else None,
+            )
             if e.scatter is not None:
                 style = {"color": "#b03a2e", "linewidth": 2.0}
                 axis.plot(

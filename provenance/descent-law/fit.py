@@ -74,7 +74,9 @@ def fit(runs):
         return errors(lambda d: induced(g, d), runs)
 
     bounds = (0.05 * np.ones(len(START)), 1.5 * np.ones(len(START)))
-    return least_squares(residual, START, loss="soft_l1", f_scale=0.1, bounds=bounds, diff_step=1e-4).x
+    return least_squares(
+        residual, START, loss="soft_l1", f_scale=0.1, bounds=bounds, diff_step=1e-4
+    ).x
 
 
 def momentum(descent):
@@ -132,7 +134,10 @@ def main():
     axes.plot(d, [induced(g, x) for x in d], "k-", lw=2.0, label="this law")
     axes.plot(d, [leishman(x) for x in d], "k--", lw=1.0, label="Leishman 2006")
     axes.plot(d, [momentum(x) for x in d], "k:", lw=1.2, label="momentum theory")
-    axes.set(xlabel="rate of descent $V_d/v_h$", ylabel="induced velocity $v/v_h$ over its value in hover")
+    axes.set(
+        xlabel="rate of descent $V_d/v_h$",
+        ylabel="induced velocity $v/v_h$ over its value in hover",
+    )
     axes.set(xlim=(0.0, 3.2), ylim=(0.0, 2.8))
     axes.legend(ncols=2, fontsize=7)
     axes.grid(alpha=0.3)

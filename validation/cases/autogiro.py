@@ -92,7 +92,9 @@ def parameters(task, resources, folder):
     if task == "section":
         text = (resources / "rotors" / "pca-2.toml").read_text(encoding="utf-8")
         file = folder / "pca-2-goettingen429.toml"
-        file.write_text(text.replace("wheatley-1934.polar", "goettingen429.polar"), encoding="utf-8")
+        file.write_text(
+            text.replace("wheatley-1934.polar", "goettingen429.polar"), encoding="utf-8"
+        )
         chosen["geometry.file"] = str(file)
     if task == "drag":
         chosen["geometry.file"] = str(twice_the_drag(resources, folder))
@@ -139,7 +141,9 @@ def mean_flight(rotor, chosen, mu, alpha):
     """Means over a blade passage at a shaft angle; the air comes from below the disc."""
     rpm = at("N_rpm", mu)
     along = edgewise(mu, rpm)
-    rotor.begin({**chosen, "rpm": rpm, "velocity[1]": along, "velocity[3]": -along * math.tan(alpha)})
+    rotor.begin(
+        {**chosen, "rpm": rpm, "velocity[1]": along, "velocity[3]": -along * math.tan(alpha)}
+    )
     step = 60.0 / rpm / 120.0
     return np.mean([rotor.fly(OUTPUTS, step) for _ in range(STEPS)], axis=0)
 
@@ -162,7 +166,11 @@ def autorotate(rotor, chosen, mu, guess):
     if alpha not in flights:
         torque(alpha)
     _, thrust, *flapping = flights[alpha]
-    return {"angle": math.degrees(alpha), "CT": thrust, **dict(zip(NAMES, map(math.degrees, flapping)))}
+    return {
+        "angle": math.degrees(alpha),
+        "CT": thrust,
+        **dict(zip(NAMES, map(math.degrees, flapping))),
+    }
 
 
 def settle(rotor, chosen, mu, rpm):
@@ -212,9 +220,13 @@ def report(flown, figures):
         values = [v for _, v in points(SPEED, "alpha_deg")]
         angles = [f["angle"] for f in own["angles"]]
         name = named[task]
-        found.errors.append(errors.degrees(CASE, "shaft angle", name, angles, values, ANGLE_READING))
+        found.errors.append(
+            errors.degrees(CASE, "shaft angle", name, angles, values, ANGLE_READING)
+        )
         thrust = [at("CT", mu) for mu in RATIOS]
-        found.errors.append(errors.percent(CASE, "CT", name, [f["CT"] for f in own["flights"]], thrust))
+        found.errors.append(
+            errors.percent(CASE, "CT", name, [f["CT"] for f in own["flights"]], thrust)
+        )
     speeds = points(SPEED, "N_rpm")
     turning = [flown[task]["rpm"] for task in SPEEDS]
     found.errors.append(
@@ -226,7 +238,10 @@ def report(flown, figures):
     found.texts = {
         "pca-2.errors": flapping_table(found.errors, named.values()),
         "pca-2.autorotation": page.error_table(
-            sorted((e for e in found.errors if e.quantity in later), key=lambda e: later.index(e.quantity))
+            sorted(
+                (e for e in found.errors if e.quantity in later),
+                key=lambda e: later.index(e.quantity),
+            )
         ),
         "pca-2.models": flown["pittPetersDynamic"]["models"],
     }
@@ -240,7 +255,11 @@ def flapping_table(rows, names):
     for name in names:
         own = [by[name, quantity] for quantity in NAMES.values()]
         cells.append(
-            [f"`{name}`" if " " not in name else name.replace("pittPetersDynamic", "`pittPetersDynamic`")]
+            [
+                f"`{name}`"
+                if " " not in name
+                else name.replace("pittPetersDynamic", "`pittPetersDynamic`")
+            ]
         )
         cells[-1] += [page.number(e.rms, "deg") for e in own]
         cells[-1] += [page.number(e.mean, "deg", True) for e in own]
@@ -272,7 +291,9 @@ def draw_autorotation(flown, file):
     figure, axes = drawing.figure(1, 3, height=4.2)
     for i, task in enumerate(ANGLED):
         flights = flown[task]["flights"]
-        axes[0].plot(RATIOS, [f["angle"] for f in flights], **drawing.line(i), label=OTHERS.get(task, task))
+        axes[0].plot(
+            RATIOS, [f["angle"] for f in flights], **drawing.line(i), label=OTHERS.get(task, task)
+        )
         axes[1].plot(RATIOS, [f["CT"] for f in flights], **drawing.line(i))
     ratios = [mu for mu, _ in points(SPEED, "N_rpm")]
     axes[2].plot(ratios, [flown[task]["rpm"] for task in SPEEDS], **drawing.line(1))

@@ -23,7 +23,11 @@ SETTINGS = {
 CASES = {
     "thesis, 15.3 deg": (15.3, rotors.THESIS_RADIUS, rotors.THESIS_RPM),
     "thesis, 16.9 deg": (16.9, rotors.THESIS_RADIUS, rotors.THESIS_RPM),
-    "Knight & Hefner, 4 blades, 8 deg": (8.0, rotors.KNIGHT_HEFNER_RADIUS, rotors.KNIGHT_HEFNER_RPM),
+    "Knight & Hefner, 4 blades, 8 deg": (
+        8.0,
+        rotors.KNIGHT_HEFNER_RADIUS,
+        rotors.KNIGHT_HEFNER_RPM,
+    ),
 }
 TASKS = [f"{case}; {name}" for case in CASES for name in SETTINGS]
 OUTPUTS = ("thrustCoefficient", "powerCoefficient")

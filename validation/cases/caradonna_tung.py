@@ -47,7 +47,9 @@ def fly(rotor, task, _resources):
     speed = lambda mach: mach * sound / RADIUS * 30.0 / math.pi
     found = {
         "lines": {str(p): [thrust(p, speed(m), m) for m in MACHS] for p in PITCHES},
-        "points": [thrust(r["collective_deg"], r["rpm"], r["M_tip"]) for r in measured.rows(THRUST)],
+        "points": [
+            thrust(r["collective_deg"], r["rpm"], r["M_tip"]) for r in measured.rows(THRUST)
+        ],
     }
     case = measured.rows(LIFT)[0]
     chosen = parameters(task, case["collective_deg"], case["rpm"], case["M_tip"])
@@ -82,24 +84,34 @@ def draw(flown, rows, file):
     for i, rule in enumerate(RULES):
         for pitch in PITCHES:
             line = flown[rule]["lines"][str(pitch)]
-            by_mach.plot(MACHS, line, **drawing.line(i), label=rule if pitch == PITCHES[0] else None)
+            by_mach.plot(
+                MACHS, line, **drawing.line(i), label=rule if pitch == PITCHES[0] else None
+            )
         by_radius.plot(flown[rule]["radius"], flown[rule]["lift"], **drawing.line(i))
     for i, pitch in enumerate(PITCHES):
         own = [(r["M_tip"], r["CT"]) for r in rows if r["collective_deg"] == pitch]
         by_mach.plot(*zip(*own), **drawing.points(i), label=f"measured, {pitch} deg")
         for mach, thrust in [
-            (r["M_tip"], r["CT"]) for r in rows if r["rpm"] == MISPRINT and r["collective_deg"] == pitch
+            (r["M_tip"], r["CT"])
+            for r in rows
+            if r["rpm"] == MISPRINT and r["collective_deg"] == pitch
         ]:
             by_mach.annotate(
                 "misprint", (mach, thrust), xytext=(0, -13), textcoords="offset points", ha="center"
             )
         top = flown["none"]["lines"][str(pitch)][0]
-        by_mach.annotate(f"{pitch} deg", (MACHS[0], top), xytext=(2, -11), textcoords="offset points")
+        by_mach.annotate(
+            f"{pitch} deg", (MACHS[0], top), xytext=(2, -11), textcoords="offset points"
+        )
     lift = measured.rows(LIFT)
     by_radius.plot([r["r_over_R"] for r in lift], [r["Cl"] for r in lift], **drawing.points(1))
-    by_mach.set(xlabel="tip Mach number", ylabel="thrust coefficient CT", ylim=(0, None), xlim=(0.38, 0.92))
+    by_mach.set(
+        xlabel="tip Mach number", ylabel="thrust coefficient CT", ylim=(0, None), xlim=(0.38, 0.92)
+    )
     drawing.coefficient_axis(by_mach)
-    by_radius.set(xlabel="radius r/R", ylabel="section lift coefficient", ylim=(0, None), xlim=(0.15, 1))
+    by_radius.set(
+        xlabel="radius r/R", ylabel="section lift coefficient", ylim=(0, None), xlim=(0.15, 1)
+    )
     by_radius.set_title("8 deg, tip Mach number 0.439", fontsize=9)
     drawing.legend_below(figure, by_mach, 3)
     drawing.save(figure, file)

@@ -45,7 +45,9 @@ def fly(rotor, task, _resources):
     drag = at(0.0)[1]  # untwisted and symmetric: no thrust at no pitch
     return {
         "line": [at(pitch) for pitch in PITCHES],
-        "points": {n: [at(r["theta_075R_deg"]) for r in rows] for n, rows in runs(int(task)).items()},
+        "points": {
+            n: [at(r["theta_075R_deg"]) for r in rows] for n, rows in runs(int(task)).items()
+        },
         "models": rotor.models(parameters),
     }
 
@@ -76,7 +78,11 @@ def report(flown, figures):
 def scatter(rpm, column):
     """Of a single measurement, %: from the differences of the logarithms between the two runs."""
     logarithms = [
-        [(r["theta_075R_deg"], math.log(r[column])) for r in rows if is_compared(r) and r[column] is not None]
+        [
+            (r["theta_075R_deg"], math.log(r[column]))
+            for r in rows
+            if is_compared(r) and r[column] is not None
+        ]
         for rows in runs(rpm).values()
     ]
     return 100.0 * errors.spread(logarithms)

@@ -41,7 +41,11 @@ JUMP = 0.01  # of the thrust: where no collective gives it, the search ends at a
 
 
 def rows():
-    return [r for r in measured.rows(FILE) if r["lambda_z"] is not None and r["theta_075R_deg"] is not None]
+    return [
+        r
+        for r in measured.rows(FILE)
+        if r["lambda_z"] is not None and r["theta_075R_deg"] is not None
+    ]
 
 
 def fly(rotor, task, _resources):
@@ -92,7 +96,9 @@ def halves():
 
     def judged(g, chosen):
         parts = [fit.errors(lambda d: fit.induced(g, d), [runs[n]]) for n in chosen]
-        worth = [1.5 * math.degrees(1.0) * math.sqrt(0.5 * thrust[n]) * p for n, p in zip(chosen, parts)]
+        worth = [
+            1.5 * math.degrees(1.0) * math.sqrt(0.5 * thrust[n]) * p for n, p in zip(chosen, parts)
+        ]
         return np.concatenate(parts).tolist(), np.concatenate(worth).tolist()
 
     found = [("all runs", "the same", *judged(fit.law(fit.fit([runs[n] for n in names])), names))]
@@ -112,7 +118,11 @@ def report(flown, figures):
     with_inflow = [i for i, r in enumerate(data) if r["lambda_i_thrust"] is not None]
     hover = {
         ct: np.mean(
-            [r["DeltaCQ"] for r in data if r["CT"] == ct and r["lambda_z"] == 0 and r["DeltaCQ"] is not None]
+            [
+                r["DeltaCQ"]
+                for r in data
+                if r["CT"] == ct and r["lambda_z"] == 0 and r["DeltaCQ"] is not None
+            ]
         )
         for ct in {r["CT"] for r in data}
     }
@@ -137,7 +147,9 @@ def report(flown, figures):
                 [points[i][1] for i in with_torque],
                 [data[i]["DeltaCQ"] for i in with_torque],
                 "hover",
-                scatter([data[i] for i in with_torque], lambda r: 100.0 * r["DeltaCQ"] / hover[r["CT"]]),
+                scatter(
+                    [data[i] for i in with_torque], lambda r: 100.0 * r["DeltaCQ"] / hover[r["CT"]]
+                ),
             ),
             errors.percent(
                 CASE,
@@ -145,10 +157,14 @@ def report(flown, figures):
                 name,
                 [points[i][2] for i in with_inflow],
                 [data[i]["lambda_i_thrust"] for i in with_inflow],
-                scatter([data[i] for i in with_inflow], lambda r: 100.0 * math.log(r["lambda_i_thrust"])),
+                scatter(
+                    [data[i] for i in with_inflow], lambda r: 100.0 * math.log(r["lambda_i_thrust"])
+                ),
             ),
         ]
-    found.errors.sort(key=lambda e: ("collective", "torque rise", "induced velocity").index(e.quantity))
+    found.errors.sort(
+        key=lambda e: ("collective", "torque rise", "induced velocity").index(e.quantity)
+    )
     draw(flown, data, figures)
     halves_table = [
         [own, on, f"{errors.rms(velocity):.2f}", f"{errors.rms(angle):.2f}"]
@@ -160,16 +176,21 @@ def report(flown, figures):
         errors.degrees(CASE, "inflow, in deg of collective", HELD_OUT, unseen, 0.0 * unseen, turns)
     )
     jumps = {
-        f"{law}, {inflow}": sum(not p[3] for p in flown[f"{law} {inflow}"]["points"]) for law, inflow in LAWS
+        f"{law}, {inflow}": sum(not p[3] for p in flown[f"{law} {inflow}"]["points"])
+        for law, inflow in LAWS
     }
     found.texts = {
         "descent.errors": page.error_table([e for e in found.errors if e.model != HELD_OUT]),
         "descent.hover-torque": hover_torques(data),
         "descent.models": flown["measured uniform"]["models"],
         "descent.halves": page.table(
-            ["fitted to", "judged on", "RMS of v/v_h", "worth in collective, deg RMS"], halves_table, 2
+            ["fitted to", "judged on", "RMS of v/v_h", "worth in collective, deg RMS"],
+            halves_table,
+            2,
         ),
-        "descent.jumps": ", ".join(f"{count} with `{name}`" for name, count in jumps.items() if count)
+        "descent.jumps": ", ".join(
+            f"{count} with `{name}`" for name, count in jumps.items() if count
+        )
         or "none",
     }
     return found
@@ -178,7 +199,9 @@ def report(flown, figures):
 def hover_torques(data):
     """The rise of torque in hover at a CT in this table, and between the points of the other."""
     of_runs = [
-        r["DeltaCQ"] for r in data if r["CT"] == 0.004 and r["lambda_z"] == 0.0 and r["DeltaCQ"] is not None
+        r["DeltaCQ"]
+        for r in data
+        if r["CT"] == 0.004 and r["lambda_z"] == 0.0 and r["DeltaCQ"] is not None
     ]
     there = []
     for rpm in castles_gray.SPEEDS:
@@ -211,7 +234,10 @@ def draw(flown, data, figures):
             panel(axis, flown, i, place)
             own = [r for r in data if r["CT"] == ct and r[column] is not None]
             axis.plot(
-                [r["lambda_z"] for r in own], [r[column] for r in own], **thin_points(), label="measured"
+                [r["lambda_z"] for r in own],
+                [r[column] for r in own],
+                **thin_points(),
+                label="measured",
             )
             axis.set_title(f"CT = {ct}")
             axis.set(xlabel="rate of descent $V_d/v_h$", xlim=(0, 2.6))
@@ -228,7 +254,10 @@ def draw(flown, data, figures):
         values = [r["lambda_z"] for r in own], [r["lambda_i_thrust"] for r in own]
         axis.plot(*values, **drawing.points(i) | {"markersize": 3.5}, label=f"measured, CT = {ct}")
     axis.set(
-        xlabel="rate of descent $V_d/v_h$", ylabel="induced velocity $v/v_h$", xlim=(0, 2.6), ylim=(0, 2.9)
+        xlabel="rate of descent $V_d/v_h$",
+        ylabel="induced velocity $v/v_h$",
+        xlim=(0, 2.6),
+        ylim=(0, 2.9),
     )
     axis.legend(ncols=2)
     drawing.save(figure, figures / "descent-inflow.svg")
@@ -243,5 +272,7 @@ def panel(axis, flown, line, place):
         values = [p[place] if p[3] else math.nan for p in flown[task]["lines"][line]]
         # Momentum theory jumps to the windmill at 2 v_h.
         cut = DESCENTS.index(2.0) + 1 if task.startswith("momentum") else len(DESCENTS)
-        axis.plot(DESCENTS[:cut], values[:cut], **drawing.line(i), label="law " + task.replace(" ", ", "))
+        axis.plot(
+            DESCENTS[:cut], values[:cut], **drawing.line(i), label="law " + task.replace(" ", ", ")
+        )
         axis.plot(DESCENTS[cut:], values[cut:], **drawing.line(i))

@@ -92,7 +92,9 @@ def draw(flown, file):
                 axis.plot(COUNTS[:-1], away, **style, label=f"{case}, {inflow}")
         axis.set(xscale="log", yscale="log", xlabel="blade elements")
         axis.set_ylabel(f"difference of {name} from that of {COUNTS[-1]} elements, %")
-        axis.set_xticks([10, 20, 40, 80, 120, 300, 700], labels=["10", "20", "40", "80", "120", "300", "700"])
+        axis.set_xticks(
+            [10, 20, 40, 80, 120, 300, 700], labels=["10", "20", "40", "80", "120", "300", "700"]
+        )
         axis.minorticks_off()
     drawing.legend_below(figure, axes[0], 2)
     drawing.save(figure, file)

@@ -60,9 +60,15 @@ def report(flown, figures):
             found.errors.append(
                 errors.percent(CASE, quantity, lift, *pairs, scatter=setting(compared, place))
             )
-        at_thrust = [torque_at(flown[f"{lift} {blades}"]["line"], p[1]) for blades in BLADES for p in compared[blades]]
+        at_thrust = [
+            torque_at(flown[f"{lift} {blades}"]["line"], p[1])
+            for blades in BLADES
+            for p in compared[blades]
+        ]
         found.errors.append(
-            errors.percent(CASE, "CQ at the measured CT", lift, at_thrust, [p[2] for p in everything])
+            errors.percent(
+                CASE, "CQ at the measured CT", lift, at_thrust, [p[2] for p in everything]
+            )
         )
     draw(flown, figures / "knight-hefner.svg")
     found.texts = {
@@ -77,7 +83,9 @@ def torque_at(line, thrust):
     """CQ where a computed line, (CT, CQ) by rising pitch, has a CT."""
     thrusts, torques = np.array(line).T
     if not thrusts[0] <= thrust <= thrusts[-1]:
-        raise ValueError(f"Knight & Hefner: no computed pitch up to {PITCHES[-1]:g} deg has CT = {thrust:g}")
+        raise ValueError(
+            f"Knight & Hefner: no computed pitch up to {PITCHES[-1]:g} deg has CT = {thrust:g}"
+        )
     return float(PchipInterpolator(thrusts, torques)(thrust))
 
 
@@ -95,10 +103,14 @@ def low_pitch(flown):
     """The points that are not in the means, with the default lift."""
     rows = []
     for blades in BLADES:
-        for (pitch, ct, cq), (own_ct, own_cq) in zip(points(blades), flown[f"table {blades}"]["points"]):
+        for (pitch, ct, cq), (own_ct, own_cq) in zip(
+            points(blades), flown[f"table {blades}"]["points"]
+        ):
             if pitch >= COMPARED_FROM:
                 continue
-            of = lambda own, said: page.number(100.0 * (own / said - 1.0), "%", True) if said else "-"
+            of = lambda own, said: (
+                page.number(100.0 * (own / said - 1.0), "%", True) if said else "-"
+            )
             rows.append(
                 [
                     blades,

@@ -14,7 +14,11 @@ RULES = ("none", "karmanTsien")
 CASES = {
     "thesis, 15.3 deg": (15.3, rotors.THESIS_RADIUS, rotors.THESIS_RPM),
     "thesis, 16.9 deg": (16.9, rotors.THESIS_RADIUS, rotors.THESIS_RPM),
-    "Knight & Hefner, 4 blades, 8 deg": (8.0, rotors.KNIGHT_HEFNER_RADIUS, rotors.KNIGHT_HEFNER_RPM),
+    "Knight & Hefner, 4 blades, 8 deg": (
+        8.0,
+        rotors.KNIGHT_HEFNER_RADIUS,
+        rotors.KNIGHT_HEFNER_RPM,
+    ),
 }
 TASKS = [f"{case}; {lift}; {rule}" for case in CASES for lift in LIFTS for rule in RULES]
 OUTPUTS = ("thrustCoefficient", "powerCoefficient")
@@ -49,7 +53,9 @@ def report(flown, figures):
     cells = []
     for case in CASES:
         for lift in LIFTS:
-            hover = [flown[f"{case}; {lift}; {rule}"]["flights"][RATIOS.index(0.0)] for rule in RULES]
+            hover = [
+                flown[f"{case}; {lift}; {rule}"]["flights"][RATIOS.index(0.0)] for rule in RULES
+            ]
             cell = [case, f"`{lift}`"]
             for place in (0, 1):
                 plain, corrected = hover[0][place], hover[1][place]
@@ -59,7 +65,16 @@ def report(flown, figures):
                     page.number(100.0 * (corrected / plain - 1.0), "%", True),
                 ]
             cells.append(cell)
-    header = ["rotor", "lift", "CT `none`", "CT `karmanTsien`", "%", "CP `none`", "CP `karmanTsien`", "%"]
+    header = [
+        "rotor",
+        "lift",
+        "CT `none`",
+        "CT `karmanTsien`",
+        "%",
+        "CP `none`",
+        "CP `karmanTsien`",
+        "%",
+    ]
     draw(flown, figures / "lift-slopes.svg")
     found.texts = {
         "lift-slopes.table": page.table(header, cells, 2),
