@@ -43,31 +43,27 @@ def number(value, unit, signed=False):
     return f"{value:+.{digits}f}" if signed else f"{value:.{digits}f}"
 
 
+STATISTICS = ["points", "mean", "mean of magnitudes", "RMS", "worst", "scatter"]
+
+
+def statistics(errors, with_unit=False):
+    """The cells under STATISTICS."""
+
+    def said(value, signed=False):
+        text = number(value, errors.unit, signed)
+        return f"{text} {errors.unit}" if with_unit else text
+
+    return [
+        errors.points,
+        said(errors.mean, True),
+        said(errors.mean_absolute),
+        said(errors.rms),
+        said(errors.worst, True),
+        said(errors.scatter) if errors.scatter is not None else "-",
+    ]
+
+
 def error_table(rows):
-    """Errors of one case, all in their units."""
-    header = [
-        "quantity",
-        "model",
-        "points",
-        "mean",
-        "mean of magnitudes",
-        "RMS",
-        "worst",
-        "scatter",
-        "unit",
-    ]
-    cells = [
-        [
-            e.quantity,
-            e.model,
-            e.points,
-            number(e.mean, e.unit, True),
-            number(e.mean_absolute, e.unit),
-            number(e.rms, e.unit),
-            number(e.worst, e.unit, True),
-            number(e.scatter, e.unit) if e.scatter is not None else "-",
-            e.unit,
-        ]
-        for e in rows
-    ]
-    return table(header, cells, 2)
+    """Errors of one case, each in its unit."""
+    cells = [[e.quantity, e.model, *statistics(e), e.unit] for e in rows]
+    return table(["quantity", "model", *STATISTICS, "unit"], cells, 2)

@@ -3,6 +3,7 @@
 import math
 import re
 import tempfile
+from pathlib import Path
 
 
 def air(density, temperature):
@@ -39,6 +40,15 @@ def knight_hefner_slopes(blades, resources, folder):
         "rpm": KNIGHT_HEFNER_RPM,
         **KNIGHT_HEFNER_AIR,
     }
+
+
+def of_study(case, resources, folder):
+    """The rotor of a case of the thesis' studies, with lift slopes all along the blade: the
+    thesis' own, or that of Knight & Hefner with the number of blades in the case's name."""
+    if case.startswith("thesis"):
+        return THESIS
+    blades = case.removeprefix("Knight & Hefner, ").split()[0]
+    return knight_hefner_slopes(blades, resources, Path(folder))
 
 
 def own_folder():

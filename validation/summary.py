@@ -81,24 +81,11 @@ def chosen(rows):
 
 
 def table(rows):
-    cells = []
-    for e, name, _ in chosen(rows):
-        said = lambda value, signed=False, unit=e.unit: f"{page.number(value, unit, signed)} {unit}"
-        scatter = said(e.scatter) if e.scatter is not None else "-"
-        means = said(e.mean, True), said(e.mean_absolute), said(e.rms), said(e.worst, True)
-        cells.append([e.case, e.quantity, name, e.points, *means, scatter])
-    header = [
-        "case",
-        "quantity",
-        "models",
-        "points",
-        "mean",
-        "mean of magnitudes",
-        "RMS",
-        "worst",
-        "scatter",
+    cells = [
+        [e.case, e.quantity, name, *page.statistics(e, with_unit=True)]
+        for e, name, _ in chosen(rows)
     ]
-    return page.table(header, cells, 3)
+    return page.table(["case", "quantity", "models", *page.STATISTICS], cells, 3)
 
 
 def draw(rows, file):

@@ -5,7 +5,6 @@ Times differ from run to run and are no part of the page: they are printed and w
 
 import math
 import time
-from pathlib import Path
 
 import drawing
 import page
@@ -28,11 +27,7 @@ SOLVES = 200
 def fly(rotor, task, resources):
     case, inflow = task.split("; ")
     with rotors.own_folder() as folder:
-        if case.startswith("thesis"):
-            own = rotors.THESIS
-        else:
-            blades = case.split()[3]
-            own = rotors.knight_hefner_slopes(blades, resources, Path(folder))
+        own = rotors.of_study(case, resources, folder)
         chosen = {
             **own,
             **rotors.THESIS_CHOICES,

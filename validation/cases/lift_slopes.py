@@ -2,24 +2,17 @@
 without compressibility, in axial flight."""
 
 import math
-from pathlib import Path
 
 import drawing
 import page
 import rotors
 
+from . import axial_flight
+
 RATIOS = [-1.0 + 0.1 * i for i in range(21)]
 LIFTS = ("slopesByReynolds", "twoPi", "table")
 RULES = ("none", "karmanTsien")
-CASES = {
-    "thesis, 15.3 deg": (15.3, rotors.THESIS_RADIUS, rotors.THESIS_RPM),
-    "thesis, 16.9 deg": (16.9, rotors.THESIS_RADIUS, rotors.THESIS_RPM),
-    "Knight & Hefner, 4 blades, 8 deg": (
-        8.0,
-        rotors.KNIGHT_HEFNER_RADIUS,
-        rotors.KNIGHT_HEFNER_RPM,
-    ),
-}
+CASES = axial_flight.CASES
 TASKS = [f"{case}; {lift}; {rule}" for case in CASES for lift in LIFTS for rule in RULES]
 OUTPUTS = ("thrustCoefficient", "powerCoefficient")
 
@@ -28,11 +21,7 @@ def fly(rotor, task, resources):
     case, lift, rule = task.split("; ")
     pitch, radius, rpm = CASES[case]
     with rotors.own_folder() as folder:
-        own = (
-            rotors.THESIS
-            if case.startswith("thesis")
-            else rotors.knight_hefner_slopes(4, resources, Path(folder))
-        )
+        own = rotors.of_study(case, resources, folder)
         chosen = {
             **own,
             "collective": math.radians(pitch),
@@ -84,26 +73,10 @@ def report(flown, figures):
 
 
 def draw(flown, file):
-    figure, axes = drawing.figure(2, len(CASES), height=6.4, sharex=True)
-    for column, case in enumerate(CASES):
-        for place in (0, 1):
-            axis = axes[place][column]
-            for i, lift in enumerate(LIFTS):
-                for rule, marker in zip(RULES, ("", "x")):
-                    values = [f[place] for f in flown[f"{case}; {lift}; {rule}"]["flights"]]
-                    style = drawing.line(i) | {
-                        "linewidth": 1.1,
-                        "marker": marker,
-                        "markersize": 4,
-                        "markevery": 2,
-                    }
-                    axis.plot(RATIOS, values, **style, label=f"{lift}, compressibility {rule}")
-            drawing.coefficient_axis(axis)
-            axis.set(xlim=(-1, 1))
-            drawing.from_zero(axis)
-        axes[0][column].set_title(case.replace("4 blades, ", ""), fontsize=9, pad=16)
-        axes[1][column].set_xlabel("rate of climb $V_c/V_h$")
-    axes[0][0].set_ylabel("thrust coefficient CT")
-    axes[1][0].set_ylabel("power coefficient CP")
-    drawing.legend_below(figure, axes[0][0], 3)
-    drawing.save(figure, file)
+    lines = []
+    for i, lift in enumerate(LIFTS):
+        for rule, marker in zip(RULES, ("", "x")):
+            style = {"linewidth": 1.1, "marker": marker, "markersize": 4, "markevery": 2}
+            label = f"{lift}, compressibility {rule}"
+            lines.append((f"; {lift}; {rule}", label, drawing.line(i) | style))
+    axial_flight.draw_climb(flown, RATIOS, lines, 6.4, file)

@@ -2,7 +2,6 @@
 in hover, counted from the root; and from which collective on anything stalls."""
 
 import math
-from pathlib import Path
 
 import drawing
 import page
@@ -28,11 +27,7 @@ OUTPUTS = ("stalledRadius", "stalledFraction")
 def fly(rotor, task, resources):
     case, setting = task.split("; ")
     with rotors.own_folder() as folder:
-        own = (
-            rotors.THESIS
-            if case == "thesis"
-            else rotors.knight_hefner_slopes(4, resources, Path(folder))
-        )
+        own = rotors.of_study(case, resources, folder)
         chosen = {**own, **SETTINGS[setting], "numerics.elements": ELEMENTS}
         rotor.begin(chosen)
         stations = lambda name, pitch: rotor.fly(
