@@ -2,14 +2,14 @@
 
     python check_reference.py --fmu HelicopterRotor.fmu
 
-flies them in FMPy with what lies in the FMU alone: parameters, inputs, communication step; with `--interface
-ModelExchange`, CVode integrates the FMU's states.
+flies them in FMPy, only with what is in the FMU: parameters, inputs and communication step. With
+`--interface ModelExchange` CVode integrates the states of the FMU.
 
     python check_reference.py --fmu HelicopterRotor.fmu --results FOLDER
 
-compares what another importer made: FOLDER/<experiment>.csv with a column "time" and one for each output. Either way
-the largest deviation of each output is printed, in % of the largest magnitude in its reference; one above the
-tolerance is an error.
+compares the results of another importer: FOLDER/<experiment>.csv with a column "time" and one for
+each output. In both cases the largest deviation of each output is printed, in % of the largest
+magnitude in its reference; a deviation above the tolerance is an error.
 """
 
 import csv
@@ -26,9 +26,7 @@ from script import command_line
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
 TOLERANCE = 1.0  # %
-SOLVER_TOLERANCE = (
-    1e-6  # relative, of CVode in Model Exchange: its errors are far below those that are looked for
-)
+SOLVER_TOLERANCE = 1e-6  # relative, of CVode; its errors are far below TOLERANCE
 SAME_TIME = 1e-6  # s
 
 
@@ -50,7 +48,7 @@ def columns(path):
 
 
 def parameters(path):
-    """Names and values, as texts, of a parameter set (SSV)."""
+    """Names and values (as text) of a parameter set (SSV)."""
     space = "{http://ssp-standard.org/SSP1/SystemStructureParameterValues}"
     found = ET.parse(path).iter(f"{space}Parameter")
     return {parameter.get("name"): parameter[0].get("value") for parameter in found}
@@ -76,8 +74,8 @@ def experiments(content):
 
 
 def fly(folder, description, experiment, interface):
-    """Columns of what FMPy computes, at each communication point."""
-    # Inputs that are not named keep their start values.
+    """The columns that FMPy computes, at each communication point."""
+    # Inputs that the experiment does not name keep their start values.
     count = len(experiment.inputs["time"])
     others = {
         v.name: np.full(count, float(v.start))
@@ -91,7 +89,8 @@ def fly(folder, description, experiment, interface):
         relative_tolerance=SOLVER_TOLERANCE if interface == "ModelExchange" else None,
         model_description=description,
         stop_time=experiment.stop,
-        # In Model Exchange FMPy holds the inputs in each interval, too, and CVode runs on with them beyond its end.
+        # In Model Exchange FMPy holds the inputs within each interval, and CVode may step beyond
+        # its end with them: short intervals keep this error small.
         output_interval=experiment.step / (4 if interface == "ModelExchange" else 1),
         start_values=as_numbers(description, experiment.parameters),
         input=np.rec.fromarrays(list(inputs.values()), names=list(inputs)),
@@ -101,7 +100,7 @@ def fly(folder, description, experiment, interface):
 
 
 def deviations(result, reference):
-    """Of each output: its largest deviation, % of its largest magnitude, and the time of it."""
+    """For each output its largest deviation, in % of its largest magnitude, and the time of it."""
     times = reference["time"]
     if "time" not in result:
         raise ValueError('there is no column "time"')

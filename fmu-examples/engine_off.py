@@ -1,13 +1,13 @@
-"""Flies a light helicopter from hover through an engine failure to the ground, in vertical autorotation.
+"""Flies a light helicopter from hover through an engine failure to a landing in autorotation.
 
-The rotor is the FMU, turned by a torque and not at an imposed speed (drive.mode = torque). Around it are, in
-this script, an engine with a governor, a point mass that moves up and down, and a pilot. Straight
-down is the hardest case: there is no forward speed to trade for rotor speed in a flare, so that all that
-cushions the landing is the energy in the rotor.
+The rotor is the FMU, turned by a torque instead of at an imposed speed (drive.mode = torque). This
+script adds an engine with a governor, a point mass that moves up and down, and a pilot. Vertical
+descent is the hardest case: there is no forward speed to trade for rotor speed in a flare, so the
+energy in the rotor alone cushions the landing.
 
     python engine_off.py --fmu HelicopterRotor.fmu --out FOLDER
 
-prints the flight and writes into FOLDER engine-off.csv and engine-off.png.
+prints the flight and writes engine-off.csv and engine-off.png into FOLDER.
 """
 
 import math
@@ -15,27 +15,28 @@ import math
 from rotor import Rotor
 from script import command_line, plt, save_plot, write_table
 
-# A light helicopter with two heavy blades, near those of the 1950s; sea level.
+# A light helicopter with two heavy blades, like those of the 1950s, at sea level.
 GRAVITY = 9.81  # m/s2
 DENSITY = 1.225  # kg/m3
 MASS = 1200.0  # kg
 RADIUS = 5.6  # m; with the mass, a disc loading of 120 N/m2
 CHORD = 0.28  # m; a solidity of 0.032
 BLADES = 2
-RPM = 340.0  # a tip speed of 199 m/s; CT/sigma is 0.08, about half of what stalls the blades
-# Blades with weights in their tips: a Lock number rho a c R^4/I of 5, I of one blade about its root. The
-# rotor then holds 0.5 MJ, the power of hover for four seconds.
+RPM = 340.0  # a tip speed of 199 m/s; CT/sigma is 0.08, about half that at stall
+# Blades with weights in their tips: a Lock number rho a c R^4/I of 5, where I is the inertia of one
+# blade about its root. The rotor then stores 0.5 MJ, enough for four seconds of hover power.
 INERTIA = BLADES * DENSITY * 2.0 * math.pi * CHORD * RADIUS**4 / 5.0  # kg m2
 PARAMETERS = {
     "geometry.numberOfBlades": BLADES,
     "geometry.radius": RADIUS,
     "geometry.rootCutout": 0.15,
     "geometry.chord": CHORD,
-    # The reserve in thrust is bounded by stall: section data at the blades' Reynolds number, 3 million.
+    # Stall limits the thrust in the landing, so the section data must reach the Reynolds number of
+    # these blades, 3 million.
     "airfoil.file": "airfoils/naca0015.polar",
     "air.atmosphere": "userDefined",
     "air.density": DENSITY,
-    # Inflow takes time to build up, some tenths of a second: a quick pull of the pitch gives more thrust.
+    # Inflow takes some tenths of a second to build up, so a quick pull gives more thrust at first.
     "models.inflow": "pittPetersDynamic",
     "models.descent": "measured",
     "models.groundEffect": "cheesemanBennett",
@@ -47,42 +48,43 @@ WEIGHT = MASS * GRAVITY  # N
 SPEED = RPM * math.pi / 30.0  # rad/s
 HOVER_INFLOW = math.sqrt(WEIGHT / (2.0 * DENSITY * math.pi * RADIUS**2))  # v_h, m/s
 
-# Textbooks have helicopters autorotate vertically at 1.7 to 1.9 v_h (Leishman 2006).
-TEXTBOOK = 1.85 * HOVER_INFLOW  # m/s, drawn beside what is flown
+# Helicopters autorotate vertically at 1.7 to 1.9 v_h (Leishman 2006).
+TEXTBOOK = 1.85 * HOVER_INFLOW  # m/s, drawn beside the flight
 
-# The engine: its governor is a PI controller on rotor speed, between no torque and the most it has. The gains
-# answer 1 % of rotor speed with a tenth of the torque of hover, and make up the rest in a second.
+# The governor of the engine is a PI controller on rotor speed, limited to torques from zero to the
+# engine's maximum. It answers an error of 1 % in rotor speed with a tenth of the hover torque, and
+# removes the error within about a second.
 MOST_TORQUE = 5000.0  # N m, 180 kW
 PROPORTIONAL = 1000.0  # N m/(rad/s)
 INTEGRAL = 1000.0  # N m/rad
 
 # The flight.
-STEP = 0.01  # s; forces and motion take turns. At a fifth of it the touch-down is 2 % faster
+STEP = 0.01  # s; the touch-down is 2 % faster with a fifth of it
 FAILURE = 3.0  # s
-REACTION = 1.0  # s, in which the pilot does nothing: usual in certification
-START_HEIGHT = 250.0  # m, of the hub: enough for the autorotation to become steady
+REACTION = 1.0  # s before the pilot reacts, as usual in certification
+START_HEIGHT = 250.0  # m, of the hub; enough for a steady autorotation
 GROUND_HEIGHT = 3.0  # m, of the hub when the skids touch
 
 # The pilot's collective.
 LOWEST_PITCH, HIGHEST_PITCH = 0.0, 16.0  # deg, the stops
 LOWERING = 8.0  # deg/s, at most
 PULLING = 12.0  # deg/s, at most
-# In autorotation more pitch slows the rotor: pitch follows rotor speed and, slowly, its error.
+# In autorotation more pitch slows the rotor: a PI controller on rotor speed moves the pitch.
 PITCH_PER_SPEED = 1.0  # deg/(rad/s)
 PITCH_PER_ANGLE = 0.3  # deg/rad
-# The landing: a constant deceleration down to the speed of touch-down. A weaker one lasts longer than the
-# energy of the rotor does, a stronger one begins too late for the pitch to follow: at 4.5 m/s2 the skids
-# touch at 2.4 m/s, at 7 m/s2 at 3.2. The speed is what the pilot aims at; he misses it, for in the end the
-# pitch is at its stop.
+# The landing: a constant deceleration down to the touch-down speed. A weaker one outlasts the
+# energy of the rotor, and a stronger one begins too late for the pitch to follow: the skids touch
+# at 2.4 m/s with 4.5 m/s2 and at 3.2 m/s with 7 m/s2. The pilot aims at TOUCH_DOWN and lands
+# faster, because the pitch reaches its stop.
 DECELERATION = 5.5  # m/s2
 TOUCH_DOWN = 1.0  # m/s
-# Pitch rate for acceleration that is missing; 1 deg of pitch is worth about 1 m/s2.
+# Pitch rate for missing acceleration; 1 deg of pitch changes it by about 1 m/s2.
 PITCH_RATE_PER_ACCELERATION = 6.0  # (deg/s)/(m/s2)
-CATCHING = 0.3  # s, in which an error of the sink rate is made up
+CATCHING = 0.3  # s, the time constant in which an error of the sink rate is corrected
 
 
 def hover_pitch(rotor):
-    """The collective (deg) of hover, by the secant method; the rotor is being initialised at its rpm."""
+    """The collective (deg) of hover, by the secant method, in Initialization Mode."""
 
     def excess(pitch):
         rotor.set({"collective": math.radians(pitch)})
@@ -105,7 +107,7 @@ def limited(value, low, high):
 
 
 class Engine:
-    """With its governor; `torque` is that of hover to begin with."""
+    """The engine with its governor; it begins at the hover `torque`."""
 
     def __init__(self, torque):
         self.held = torque
@@ -119,20 +121,18 @@ class Engine:
 
 
 class Pilot:
-    """Moves the collective (deg); `landing` is the time at which the pull before the ground begins."""
+    """Moves the collective (deg). `landing` is the time at which the pull before landing begins."""
 
     def __init__(self, pitch):
         self.pitch = pitch
-        self.held = (
-            None  # the pitch that the rotor speed needs in autorotation, once it turns fast again
-        )
+        self.held = None  # deg, the integral part of the pitch in autorotation
         self.landing = None
 
     def move(self, time, height, sink, acceleration, speed):
-        """The collective for the next step; `acceleration` is that upwards."""
+        """The collective for the next step; `acceleration` is positive upwards."""
         if time < FAILURE + REACTION:
             return self.pitch
-        # The sink rate from which the deceleration just ends at the ground.
+        # The sink rate from which the constant deceleration ends at the ground.
         left = max(height - GROUND_HEIGHT, 0.0)
         allowed = math.sqrt(TOUCH_DOWN**2 + 2.0 * DECELERATION * left)
         if self.landing is None and sink >= allowed:
@@ -147,10 +147,10 @@ class Pilot:
         return self.pitch
 
     def for_speed(self, speed):
-        """The pitch that brings the rotor back to its speed and holds it there."""
+        """The pitch that brings the rotor back to its nominal speed and holds it there."""
         excess = speed - SPEED
         if self.held is None:
-            # Down to the stop until the rotor has nearly its speed again.
+            # At the lower stop until the rotor is back within 5 % of its nominal speed.
             if excess < -0.05 * SPEED:
                 return LOWEST_PITCH
             self.held = self.pitch - PITCH_PER_SPEED * excess
@@ -159,7 +159,7 @@ class Pilot:
 
 
 def fly(rotor):
-    """The rows of the table, a row for each step until touch-down, and the times of what happens."""
+    """The table, a row for each step until touch-down, and the time at which the pilot pulls."""
     rotor.set({"rpm": RPM, "heightAboveGround": START_HEIGHT})
     pitch = hover_pitch(rotor)
     engine, pilot = Engine(rotor["torque"]), Pilot(pitch)
@@ -170,7 +170,7 @@ def fly(rotor):
     while True:
         speed = rotor["rotorSpeed"] * math.pi / 30.0
         thrust = rotor["force[3]"]
-        # No drag of the fuselage: it would be some per cent of the weight.
+        # The drag of the fuselage, some per cent of the weight, is left out.
         acceleration = thrust / MASS - GRAVITY
         torque = engine.torque(rotor.time, speed)
         pitch = pilot.move(rotor.time, height, -climb, acceleration, speed)
@@ -205,23 +205,24 @@ def fly(rotor):
             }
         )
         rotor.step(STEP)
-        # Symplectic Euler: the new speed moves the mass.
+        # Symplectic Euler: the mass moves at the new speed.
         climb += acceleration * STEP
         height = max(height + climb * STEP, GROUND_HEIGHT)
     return rows, pilot.landing
 
 
 def steady(rows, landing):
-    """Means over the last two seconds before the pull: sink rate (m/s), rotor speed (rpm), pitch (deg)."""
+    """Averages over the last two seconds before the pull: sink rate (m/s), rotor speed (rpm) and
+    collective (deg)."""
     chosen = [row for row in rows if landing - 2.0 <= row["time"] < landing]
     return [sum(row[n] for row in chosen) / len(chosen) for n in ("sink_rate", "rpm", "collective")]
 
 
 def plot(rows, landing, file):
-    """Everything against time, on bands for the states of the flow."""
+    """The flight against time, on bands for the states of the flow."""
     times = [row["time"] for row in rows]
     end = times[-1]
-    # Name, its words, and its band: the faster the descent, the darker, in black and white too.
+    # Label and colour of each state; faster descents are darker, also in black and white.
     states = {
         "normal": ("normal", "white"),
         "vortexRing": ("vortex ring", "#fbe8c3"),

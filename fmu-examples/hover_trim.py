@@ -1,16 +1,20 @@
-"""Trims a hovering rotor by Newton's method and makes a linear model of it, with the FMU's exact derivatives.
+"""Trims a hovering rotor by Newton's method and linearises it, with the FMU's exact derivatives.
 
-The rotor has flapping blades on hinges beside the shaft and dynamic inflow, and hovers in a wind from ahead and from
-the side. Collective, shaft tilts and cyclic pitch are found with which it carries the weight straight up, without
-moments at the hub, when blade 1 is over the tail, where the FMU starts (the means over a turn differ by some 0.03 %
-of the weight, as the loads pulsate a little). Both the Jacobian of the trim (in Initialization Mode, where the states move with the inputs) and
-the matrices of the linear model (in Continuous-Time Mode, where they are held) are fmi2GetDirectionalDerivative's.
+The rotor has flapping blades on offset hinges and dynamic inflow, and hovers in a wind from ahead
+and from the side. The trim finds the collective, the two shaft tilts and the cyclic pitch at which
+the rotor carries the weight straight up without moments at the hub. It holds at the azimuth at
+which the FMU starts, with blade 1 over the tail; the loads pulsate, and their averages over one
+revolution differ from it by some 0.03 % of the weight.
+
+Both the Jacobian of the trim (in Initialization Mode, where the states move with the inputs) and
+the matrices of the linear model (in Continuous-Time Mode, where the states are held) come from
+fmi2GetDirectionalDerivative.
 
     python hover_trim.py --fmu HelicopterRotor.fmu --out FOLDER
 
 prints the trim, step by step, and the eigenvalues, and writes into FOLDER
 
-    hover-trim.npz          the trim and the matrices A, B, C, D with the names of their rows and columns
+    hover-trim.npz          the trim and the matrices A, B, C, D with the names of rows and columns
     step-response.csv, .png the linear model beside the FMU after a step of the collective
 """
 
@@ -33,7 +37,7 @@ PARAMETERS = {
     "models.inflow": "pittPetersDynamic",
     "flapping.enabled": True,
     "flapping.hingeOffset": 0.05,
-    # A Lock number rho a c R^4/I of 8.
+    # From a Lock number rho a c R^4/I of 8.
     "flapping.inertia": DENSITY * 2.0 * math.pi * CHORD * RADIUS**4 / 8.0,
 }
 WIND = {"wind[1]": -4.0, "wind[2]": 2.0}  # m/s
@@ -67,15 +71,17 @@ INFLOW = [f"state.inflow[{i}]" for i in (1, 2, 3)]
 FLAPPING = [
     f"state.{kind}[{i}]" for kind in ("flapAngle", "flapRate") for i in range(1, BLADES + 1)
 ]
-MULTIBLADE = ["b0", "b1c", "b1s", "bd"]  # coning, to the rear, to the advancing side, differential
-AZIMUTHS = 12  # over which the linear model is a mean, from blade to blade
+# Coning, flapping to the rear and to the advancing side, differential flapping.
+MULTIBLADE = ["b0", "b1c", "b1s", "bd"]
+AZIMUTHS = 12  # between two blade passages, over which the linear model is averaged
 
 STEP = math.radians(0.5)  # of the collective
 STEP_TIME, STOP_TIME, INTERVAL = 0.05, 0.35, 0.001  # s
 
 
 def trim(rotor, wanted, guess):
-    """The inputs named in `guess` with which the outputs are as `wanted`, and the residual of each step."""
+    """The inputs named in `guess` at which the outputs are as `wanted`, and the residuals before
+    each step and after the last."""
     controls = np.array(list(guess.values()))
     scale = np.array([WEIGHT * RADIUS if "oment" in name else WEIGHT for name in wanted])
     residuals = []
@@ -91,8 +97,11 @@ def trim(rotor, wanted, guess):
 
 
 def multiblade(azimuth):
-    """T with (inflow, flap angles, flap rates) = T y, and its rate: y are the inflow and the rotor's coning, cyclic and
-    differential flapping with their rates in axes that stand still (Johnson 1980, Helicopter Theory, ch. 8-2)."""
+    """The transformation T with (inflow, flap angles, flap rates) = T y, and its rate of change.
+
+    y is the inflow, and coning, cyclic and differential flapping with their rates in non-rotating
+    axes (multiblade coordinates; Johnson 1980, Helicopter Theory, ch. 8-2).
+    """
     psi = azimuth + 2.0 * math.pi / BLADES * np.arange(BLADES)
     one, zero = np.ones(BLADES), np.zeros(BLADES)
     c = np.array([one, np.cos(psi), np.sin(psi), (-1.0) ** np.arange(BLADES)]).T
@@ -107,8 +116,10 @@ def multiblade(azimuth):
 
 
 def linear_model(rotor):
-    """A, B, C, D of a started rotor with flapping blades, in multiblade coordinates, the mean over a passage from blade
-    to blade: in the wind the matrices change a little as the blades turn."""
+    """A, B, C, D of a started rotor with flapping blades, in multiblade coordinates.
+
+    They are averages over one blade passage, because in the wind they change with the azimuth.
+    """
     states = INFLOW + FLAPPING
     rates = [f"der({name})" for name in states]
     y = np.linalg.solve(multiblade(0.0)[0], rotor.get(states))
@@ -125,7 +136,8 @@ def linear_model(rotor):
 
 
 def linear_response(a, b, c, d, times):
-    """Changes of the outputs after the step of the collective at STEP_TIME: y(t) = (exp(A t) - 1) A^-1 b."""
+    """Changes of the outputs after the step of the collective at STEP_TIME, by
+    y(t) = (exp(A t) - 1) A^-1 b."""
     values, vectors = np.linalg.eig(a)
     modal = np.linalg.solve(vectors, b[:, 0] * STEP)
     since = np.clip(times - STEP_TIME, 0.0, None)[:, None]
@@ -134,7 +146,8 @@ def linear_response(a, b, c, d, times):
 
 
 def fly(fmu, inputs, step):
-    """Times and outputs (rows) of the FMU itself, in Co-Simulation, with a step of the collective at STEP_TIME."""
+    """Times and outputs (rows) of the FMU in Co-Simulation, with a step of the collective at
+    STEP_TIME."""
     times = np.arange(round(STOP_TIME / INTERVAL) + 1) * INTERVAL
     with Rotor(fmu, PARAMETERS) as rotor:
         rotor.set(inputs)
@@ -148,7 +161,8 @@ def fly(fmu, inputs, step):
 
 
 def hover_in_still_air(fmu):
-    """Eigenvalues of the inflow over rigid blades with a lift slope of 2 pi, those of theory, and the Newton steps."""
+    """Eigenvalues of the inflow with rigid blades and a lift slope of 2 pi, by the linear model and
+    by theory, and the residuals of the trim."""
     parameters = {
         "models.inflow": "pittPetersDynamic",
         "models.lift": "twoPi",
@@ -160,7 +174,8 @@ def hover_in_still_air(fmu):
         rotor.start()
         a = rotor.jacobian([f"der({name})" for name in INFLOW], INFLOW)
         v0 = rotor["inducedVelocity"]
-    # Apparent mass against the wake, 2 v^2, and the lift of the blades, with small angles (Pitt & Peters 1981).
+    # Apparent mass against momentum theory, 2 v^2, and the lift of the blades, for small angles
+    # (Pitt & Peters 1981).
     blades = 2.0 * math.pi * BLADES * CHORD / (math.pi * RADIUS) * SPEED * RADIUS
     mean = -(4.0 * v0 + blades * (1.0 - CUTOUT**2) / 4.0) / (RADIUS * 8.0 / (3.0 * math.pi))
     slope = -(v0 + blades * (1.0 - CUTOUT**4) / 16.0) / (RADIUS * 16.0 / (45.0 * math.pi))
@@ -180,7 +195,8 @@ def plot(times, flown, linear, file):
         axis.grid(True, color="0.85")
     axes[0].legend()
     axes[0].set_title(
-        f"Hover in a wind: collective raised by {math.degrees(STEP):g} deg at {1e3 * STEP_TIME:g} ms"
+        f"Hover in a wind: collective raised by {math.degrees(STEP):g} deg"
+        f" at {1e3 * STEP_TIME:g} ms"
     )
     axes[1].set_xlabel("time, ms")
     save_plot(figure, file)
@@ -205,12 +221,11 @@ def main():
                 print(f"  {name:18s} {math.degrees(value):8.4f} deg")
             rotor.start()
             a, b, c, d = linear_model(rotor)
-        print("Eigenvalues of the linear model, 1/s, and their frequencies per turn")
+        print("Eigenvalues of the linear model, 1/s, and their frequencies per revolution")
         for value in sorted(np.linalg.eigvals(a), key=lambda v: (v.real, v.imag)):
             if value.imag >= 0.0:
-                print(
-                    f"  eigenvalue {value.real:9.2f} +- {value.imag:7.2f} i   {abs(value) / SPEED:.3f}"
-                )
+                frequency = abs(value) / SPEED
+                print(f"  eigenvalue {value.real:9.2f} +- {value.imag:7.2f} i   {frequency:.3f}")
 
         still, theory, still_residuals = hover_in_still_air(fmu)
         show("Rigid blades in still air", still_residuals)
@@ -222,11 +237,11 @@ def main():
         times, flown = fly(fmu, inputs, STEP)
         _, held = fly(fmu, inputs, 0.0)
 
-    # The linear model adds to the mean of the trim; the FMU's loads pulsate about it, from blade to blade.
+    # The linear model gives changes from the mean of the trimmed loads, which pulsate with each
+    # blade passage.
     linear = held.mean(axis=0) + linear_response(a, b, c, d, times)
-    print(
-        f"Mean loads of the trim: {', '.join(f'{value:.4f}' for value in held.mean(axis=0)[:5])} N, N.m"
-    )
+    loads = ", ".join(f"{value:.4f}" for value in held.mean(axis=0)[:5])
+    print(f"Mean loads of the trim: {loads} N, N.m")
     np.savez(
         arguments.out / "hover-trim.npz",
         **dict(A=a, B=b, C=c, D=d, inputs=INPUTS, outputs=OUTPUTS),

@@ -2,8 +2,9 @@
 
 Knight, M. & Hefner, R. A. (1937), "Static Thrust Analysis of the Lifting Airscrew", NACA TN 626:
 rotors of three and four untwisted NACA 0015 blades, thrust and torque against pitch. The section
-data are the authors' own, measured at the blade tip's Reynolds number; the rotors' files name
-naca0015-knight-hefner-reynolds.polar, which takes their drag inwards. No parameter is fitted.
+data are the authors' own, measured at the Reynolds number of the blade tip; the rotor definitions
+name naca0015-knight-hefner-reynolds.polar, which adapts the drag to the Reynolds numbers inboard.
+No parameter is fitted.
 
     python knight_hefner.py --fmu HelicopterRotor.fmu --out FOLDER
 
@@ -18,12 +19,12 @@ from script import command_line, plt, save_plot, write_table
 
 MEASURED = "knight-hefner-1937-tn626-hover.csv"
 
-# The report gives 960 rpm and a tip Reynolds number of 242,000, which is that of air at 30 degrees
-# Celsius and sea-level pressure (the FMU's tipReynolds comes out at 243,000).
+# The report gives 960 rpm and a tip Reynolds number of 242,000: air of 30 degrees Celsius at
+# sea-level pressure, with which the output tipReynolds is 243,000.
 AIR = {"air.atmosphere": "userDefined", "air.density": 1.164, "air.temperature": 303.15}
 RPM = 960.0
 
-COMPARED_FROM = 4.0  # deg; below, measured thrust is too small for differences in per cent
+COMPARED_FROM = 4.0  # deg; below it the measured thrust is too small for differences in per cent
 
 
 def measured_rows():
@@ -40,7 +41,7 @@ def measured_rows():
 
 
 def fly(rotor, blades, pitch):
-    """CT and CQ of the rotor with `blades` blades at a pitch in degrees."""
+    """CT and CQ of the rotor with `blades` blades at a pitch in degrees, in the steady start."""
     rotor.restart({"geometry.file": f"knight-hefner-{blades}.toml", **AIR})
     rotor.set({"rpm": RPM, "collective": math.radians(pitch)})
     return rotor.get(["thrustCoefficient", "torqueCoefficient"])
@@ -52,7 +53,7 @@ def percent(computed, measured):
 
 
 def table(rotor):
-    """The measured rows with what the FMU computes added; prints as it goes."""
+    """The measured rows with the computed values added; prints each row."""
     rows = measured_rows()
     print("Knight & Hefner (1937), hover, computed with the authors' own section data")
     print(" blades  pitch |   CT FMU  CT measured   diff |     CQ FMU  CQ measured   diff")

@@ -7,7 +7,7 @@ FOLDER = Path(__file__).resolve().parent / "data"
 
 
 def rows(file):
-    """Rows of a file as dictionaries: numbers as floats, empty cells as None, other text as it is."""
+    """Rows of a file as dictionaries: numbers as floats, empty cells as None, other text as is."""
     with (FOLDER / file).open(encoding="utf-8") as text:
         return [
             {name: _value(cell) for name, cell in row.items()}

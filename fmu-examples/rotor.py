@@ -56,7 +56,7 @@ def unpacked(fmu):
 
 
 def as_numbers(description, values):
-    """`values` by name with the items of enumerations as numbers, as FMPy's simulate_fmu wants them."""
+    """Values by name, with items of enumerations as numbers, as FMPy's simulate_fmu needs them."""
     variables = {v.name: v for v in description.modelVariables}
     return {name: _as_fmi(_find(variables, name), value) for name, value in values.items()}
 

@@ -1,16 +1,20 @@
-"""Shows how accurate the FMU's two interfaces are, and what decides it: the tolerance of the importer's solver in Model
-Exchange, numerics.azimuthStep in Co-Simulation.
+"""Shows how accurate the FMU's two interfaces are, and which setting decides.
 
-Three manoeuvres begin with a jump of an input: the collective in hover with dynamic inflow, the cyclic pitch in
-forward flight with flapping blades, and the torque that drives the rotor, which runs down. (A jump, since FMPy
-holds inputs that move within each output interval in Model Exchange, which would be an error of its own.) Each is flown by
-Co-Simulation with the shortest step there is, by Model Exchange with FMPy's CVode with relative tolerances from 1e-3
-to 1e-9, and by Co-Simulation with longer steps. Errors are the largest over all outputs and times, as a part of the
-largest magnitude of the output.
+In Model Exchange it is the tolerance of the importer's solver, in Co-Simulation
+numerics.azimuthStep.
+
+Each of three manoeuvres begins with a jump of an input: the collective in hover with dynamic
+inflow, the cyclic pitch in forward flight with flapping blades, and the driving torque, after which
+the rotor runs down. (Inputs jump, because in Model Exchange FMPy holds inputs that move within each
+output interval, which would be an error of its own.)
+
+Each manoeuvre is flown by Co-Simulation with the shortest step, by Model Exchange with FMPy's CVode
+at relative tolerances from 1e-3 to 1e-9, and by Co-Simulation with longer steps. Errors are the
+largest over all outputs and times, relative to the largest magnitude of the output.
 
     python solver_accuracy.py --fmu HelicopterRotor.fmu --out FOLDER
 
-prints the errors and writes them into FOLDER as solver-accuracy.csv and solver-accuracy.png.
+prints the errors and writes solver-accuracy.csv and solver-accuracy.png into FOLDER.
 """
 
 import math
@@ -28,8 +32,9 @@ DEFAULT_STEP = 3.0  # deg
 JUMP_TIME = 0.0525  # s; between two output points, so that none has two values
 INTERVAL = 0.005  # s
 
-# Duration (s), parameters and inputs, the input that jumps from its first to its second value, outputs, marker. FMPy bounds
-# CVode's steps by a 50th of the duration, which in a short flight would hide what the tolerance does.
+# Duration (s), parameters and inputs, the input that jumps from its first to its second value,
+# outputs, marker. FMPy limits CVode's steps to a 50th of the duration; in a shorter flight this
+# limit would hide the effect of the tolerance.
 MANOEUVRES = {
     "hover": (
         2.0,
@@ -62,13 +67,13 @@ MANOEUVRES = {
 
 
 class Manoeuvre:
-    """A manoeuvre that FMPy flies through either interface."""
+    """One manoeuvre, flown by FMPy through either interface."""
 
     def __init__(self, unzipped, description, name):
         self.duration, parameters, jump, self.outputs, _ = MANOEUVRES[name]
         self.unzipped, self.description = unzipped, description
         self.start = as_numbers(description, parameters)
-        # All inputs, as FMPy warns of those that are missing; two rows at one time make a jump.
+        # All inputs are given, because FMPy warns of missing ones. Two rows at one time are a jump.
         inputs = {
             v.name: (v.start, v.start) for v in description.modelVariables if v.causality == "input"
         }
@@ -94,7 +99,7 @@ class Manoeuvre:
             record_events=False,
             **options,
         )
-        # Co-Simulation has a row at the jump as well.
+        # Co-Simulation also has a row at the jump.
         points = result["time"] / INTERVAL
         rows = np.abs(points - np.round(points)) < 1e-6
         return np.array([result[name][rows] for name in self.outputs]).T
@@ -103,13 +108,15 @@ class Manoeuvre:
         return self.fly("CoSimulation", {"numerics.azimuthStep": azimuth_step})
 
     def model_exchange(self, tolerance):
-        """With the start of the finest run: flapping that repeats itself is found with steps of numerics.azimuthStep."""
+        """Starts as the finest run does: the periodic start is found in steps of
+        numerics.azimuthStep."""
         start = {"numerics.azimuthStep": FINEST}
         return self.fly("ModelExchange", start, relative_tolerance=tolerance)
 
 
 def errors(manoeuvre):
-    """Pairs of tolerance and error of Model Exchange, and of azimuth step (deg) and error of Co-Simulation."""
+    """Pairs of tolerance and error in Model Exchange, and of azimuth step (deg) and error in
+    Co-Simulation."""
     exact = manoeuvre.co_simulation(FINEST)
     largest = np.abs(exact).max(axis=0)
 
@@ -123,7 +130,7 @@ def errors(manoeuvre):
 
 
 def order(pairs):
-    """Slope of the line through the pairs in logarithms (least squares)."""
+    """Slope of the least-squares line through the logarithms of the pairs."""
     return float(np.polyfit(*np.log(np.array(pairs)).T, 1)[0])
 
 
