@@ -1,9 +1,9 @@
-"""Flies an experiment to convergence, call by call.
+"""Flies an experiment to convergence.
 
-In Co-Simulation the FMU holds its inputs during a step, so that an importer's answer has an error of the first
-order in the communication step. Here each step is cut into many parts, each with the inputs of its middle held,
-which makes the error one of the second order. Outputs are those of the inputs that were held last; so the last part before
-they are read holds the inputs of its end.
+In Co-Simulation the FMU holds its inputs during a step, so an importer's results have an error of
+the first order in the communication step. Here each step is cut into many parts. Each part holds
+the inputs of its middle, which makes the error one of the second order. Outputs belong to the
+inputs that were held last, so the last part before they are read holds the inputs of its end.
 """
 
 import numpy as np
@@ -16,14 +16,15 @@ def inputs_at(experiment, time):
 
 
 def outputs(rotor, experiment):
+    """The recorded outputs as numbers."""
     values = dict(zip(experiment.outputs, rotor.get(experiment.outputs)))
     return as_numbers(rotor.description, values).values()
 
 
 def converged(fmu, experiment, parts):
-    """Rows (time, outputs ...) at the experiment's interval, each communication step cut into `parts`.
+    """Rows (time, outputs ...) at the experiment's interval, each step cut into `parts`.
 
-    The rotor's own largest step goes with it: 0.5 deg at 10 parts, a sixth of the default.
+    numerics.azimuthStep shrinks with the parts: 0.5 deg at 10 parts, a sixth of the default.
     """
     azimuth_step = np.radians(5.0 / parts)
     with Rotor(fmu, experiment.parameters | {"numerics.azimuthStep": azimuth_step}) as rotor:

@@ -2,8 +2,8 @@
 
     python validation --fmu HelicopterRotor.fmu --out FOLDER
 
-writes into FOLDER validation.md, its figures in validation/, summary.md (the README's part), errors.csv and
-element-times.csv. While it works it prints lines `progress DONE TOTAL NAME`.
+writes validation.md, its figures in validation/, summary.md (the part in the README), errors.csv
+and element-times.csv into FOLDER. While it flies it prints lines `progress DONE TOTAL NAME`.
 """
 
 import csv

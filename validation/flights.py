@@ -1,4 +1,4 @@
-"""All parts of all cases, flown by as many processes as there are cores."""
+"""The parts of all cases, flown by as many processes as there are cores."""
 
 import logging
 import math
@@ -9,11 +9,11 @@ from pathlib import Path
 from cases import CASES
 from rotor import Rotor, RotorError, unpacked
 
-STEP = 0.01  # s; without states a step only computes the outputs from the inputs
+STEP = 0.01  # s; a rotor without states only computes its outputs in a step
 
 
 class CaseRotor(Rotor):
-    """One instance of the FMU in each process, with what the cases need beside it."""
+    """The one instance of a process, with the methods that the cases share."""
 
     def begin(self, parameters):
         """A fresh rotor with these parameters and inputs, started."""
@@ -31,7 +31,7 @@ class CaseRotor(Rotor):
         return tuple(values)
 
     def models(self, parameters):
-        """The physical models of a flight in one line: all of them, also those that are defaults."""
+        """All physical models of a flight in one line, defaults included."""
         named = []
         for name, variable in self.variables.items():
             if not name.startswith("models."):
@@ -47,8 +47,8 @@ class CaseRotor(Rotor):
 
 
 def fly_all(fmu):
-    """What every part of every case found, by case and part."""
-    # The longest first, so that no process is left alone with one of them at the end.
+    """The results of all parts: {case: {part: result}}."""
+    # The longest parts come first, so that no process flies one of them alone at the end.
     tasks = [(case, task) for case, module in CASES.items() for task in module.TASKS]
     tasks.sort(key=lambda task: task[0] != "autogiro" and task != ("descent", "law"))
     flown = {case: {} for case in CASES}

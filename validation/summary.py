@@ -1,4 +1,4 @@
-"""The errors at a glance: of each case those that a user asks for first."""
+"""The errors at a glance: for each case those that a user asks for first."""
 
 import drawing
 import page
@@ -8,7 +8,7 @@ HOVER_3 = "Caradonna & Tung 1981, hover"
 DESCENT = "Castles & Gray 1951, descent"
 FORWARD = "PCA-2 autogiro 1934, forward flight"
 MEASURED = "the law of descent is fitted to these runs"
-# Case, quantity and model as in the errors; what the table calls the models; what the figure calls the row.
+# Case, quantity and model as in the errors, the models in the table, the label in the figure.
 CHOSEN = [
     (HOVER_1, "CT", "table", "defaults", "Knight & Hefner, hover: CT"),
     (HOVER_1, "CQ", "table", "defaults", "Knight & Hefner, hover: CQ"),
@@ -89,7 +89,7 @@ def table(rows):
 
 
 def draw(rows, file):
-    """RMS errors as bars, the mean as a mark on them, and beside them the scatter of the measurement."""
+    """RMS errors as bars; the mean error and the scatter of the measurement are marked on them."""
     units = {"%": "% of the measured value", "deg": "deg"}
     heights = [sum(e.unit == unit for e, _, _ in chosen(rows)) for unit in units]
     figure, panels = drawing.figure(2, 1, height=5.6, height_ratios=heights)

@@ -1,7 +1,8 @@
 """Forward flight: the PCA-2 autogiro in flight (Wheatley 1934, NACA Report 487, figs. 6 to 8).
 
-Flown in autorotation: at the measured rotor speed, at the shaft angle at which the mean torque vanishes. Section data and
-tip loss are those of the report's own analysis, published before and not fitted; the rotor's file says what is assumed.
+It is flown in autorotation: at the measured rotor speed, at the shaft angle at which the mean
+torque vanishes. Section data and tip loss are those of the report's own analysis, published before
+and not fitted; the rotor definition says what is assumed.
 """
 
 import math
@@ -33,48 +34,51 @@ MODELS = [
     "pittPetersDynamic",
     "petersHe",
 ]
-# What the assumptions are worth: task, and what the page calls it.
+# Effect of the assumptions: task and its name on the page.
 OTHERS = {
     "tip loss": "pittPetersDynamic with Prandtl's tip loss",
     "section": "pittPetersDynamic with Goettingen 429 computed",
     "drag": "pittPetersDynamic with twice the section drag",
 }
-# Flown at the advance ratios at which the shaft angle was read, too.
+# Also flown at the advance ratios at which the shaft angle was read.
 ANGLED = ["uniform", "pittPetersDynamic", "petersHe", "drag"]
 DRAWN = ["uniform", "annulus", "coleman", "pittPetersDynamic", "petersHe"]
 NAMES = {"a0": "coning", "a1": "longitudinal flapping", "b1": "lateral flapping"}
-READING = 0.05  # deg, to which the flapping was read off the report's figure
-ANGLE_READING = 0.3  # deg, of the faired curve of the rotor's angle of attack
+READING = 0.05  # deg, reading accuracy of the flapping in the report's figure
+ANGLE_READING = 0.3  # deg, reading accuracy of the rotor's angle of attack, a faired curve
 
 RADIUS = 6.858
 DENSITY = 1.0823  # kg/m3, mean of the tests
-INERTIA = 452.8  # kg m2 of a blade
+INERTIA = 452.8  # kg m2, of one blade
 COLLECTIVE = 0.0497  # rad
-STEPS = 30  # of 3 deg, from blade to blade
+STEPS = 30  # of 3 deg each, one blade passage
 OUTPUTS = ("torque", "thrustCoefficient", "coning", "longitudinalFlapping", "lateralFlapping")
 SETTLING = 15.0  # s
-ENOUGH_THRUST = 0.005  # share of the wanted thrust by which it may be missed
-NO_TORQUE = 5.0  # N.m, a thousandth of what drives one side of the rotor and brakes the other
+ENOUGH_THRUST = 0.005  # tolerance of the thrust, relative
+# N.m, counts as zero: a thousandth of the torque that drives one part of the disc and brakes the
+# other.
+NO_TORQUE = 5.0
 
 
 def points(file, quantity):
-    """(mu, value) of a quantity."""
+    """Pairs (mu, value) of a quantity."""
     kind = "coefficient" if file == FLAPPING else "quantity"
     value = "value_deg" if file == FLAPPING else "value"
     return [(r["mu"], r[value]) for r in measured.rows(file) if r[kind] == quantity]
 
 
-RATIOS = [mu for mu, _ in points(FLAPPING, "a0")]  # those of a1 and b1 lie within 0.004 of them
+# The advance ratios of a1 and b1 differ from these by at most 0.004.
+RATIOS = [mu for mu, _ in points(FLAPPING, "a0")]
 
 
 ANGLE_RATIOS = [mu for mu, _ in points(SPEED, "alpha_deg")]
-# Without an engine, at the measured points of rotor speed.
+# Without an engine, at the advance ratios at which the rotor speed was measured.
 SPEEDS = [f"free at {mu}" for mu, _ in points(SPEED, "N_rpm")]
 TASKS = [*MODELS, *OTHERS, *SPEEDS]
 
 
 def at(quantity, mu):
-    """A quantity of the second file at an advance ratio, linear between its points."""
+    """A quantity of the file SPEED at an advance ratio, interpolated linearly."""
     return float(np.interp(mu, *zip(*points(SPEED, quantity))))
 
 
@@ -102,7 +106,7 @@ def parameters(task, resources, folder):
 
 
 def twice_the_drag(resources, folder):
-    """The rotor with twice the drag of the section, for the fittings and cables that it has not."""
+    """The rotor with twice the section drag, in place of the drag of fittings and cables."""
     section = (resources / "airfoils" / "wheatley-1934.polar").read_text(encoding="utf-8")
     polar, file = folder / "drag.polar", folder / "pca-2-drag.toml"
     polar.write_text(section.replace(" 0.01200", " 0.02400"), encoding="utf-8")
@@ -112,7 +116,7 @@ def twice_the_drag(resources, folder):
 
 
 def edgewise(mu, rpm):
-    """Speed along the disc, m/s."""
+    """Edgewise flow, m/s."""
     return mu * rpm * math.pi / 30.0 * RADIUS
 
 
@@ -129,7 +133,7 @@ def fly(rotor, task, resources):
 
 
 def sweep(rotor, chosen, ratios):
-    """Autorotations from the slowest up: the faster, the less the shaft leans back."""
+    """Autorotations, slowest first: the shaft leans back less the faster the rotor flies."""
     guess, found = 0.42, []
     for mu in ratios:
         found.append(autorotate(rotor, chosen, mu, guess))
@@ -138,7 +142,7 @@ def sweep(rotor, chosen, ratios):
 
 
 def mean_flight(rotor, chosen, mu, alpha):
-    """Means over a blade passage at a shaft angle; the air comes from below the disc."""
+    """Averages over one blade passage at a shaft angle; the air comes from below the disc."""
     rpm = at("N_rpm", mu)
     along = edgewise(mu, rpm)
     rotor.begin(
@@ -149,7 +153,8 @@ def mean_flight(rotor, chosen, mu, alpha):
 
 
 def autorotate(rotor, chosen, mu, guess):
-    """The flight without mean torque. The more the shaft leans back, the more the air drives the rotor."""
+    """The flight at which the mean torque vanishes. The air drives the rotor more, the further the
+    shaft leans back."""
     flights = {}
 
     def torque(alpha):
@@ -174,8 +179,10 @@ def autorotate(rotor, chosen, mu, guess):
 
 
 def settle(rotor, chosen, mu, rpm):
-    """The speed, rev/min, at which the rotor turns without an engine, at the measured speed along the disc and with
-    the measured thrust, which the angle of the shaft is for."""
+    """The speed, rev/min, at which the rotor settles without an engine.
+
+    The edgewise flow is the measured one, and the shaft angle gives the measured thrust.
+    """
     wanted = at("CT", mu) * DENSITY * math.pi * (RADIUS**2 * rpm * math.pi / 30.0) ** 2
     along = edgewise(mu, rpm)
     free = {
@@ -249,7 +256,7 @@ def report(flown, figures):
 
 
 def flapping_table(rows, names):
-    """RMS and mean errors of the three angles, a line for each model."""
+    """RMS, mean and worst errors of the three angles, a row for each model."""
     by = {(e.model, e.quantity): e for e in rows}
     cells = []
     for name in names:

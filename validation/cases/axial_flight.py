@@ -1,5 +1,8 @@
-"""The thesis' study of axial flight (Lovaco 2017, figures 17 to 20): CT and CP from a descent at V_h to a climb at V_h,
-the disc by eq. (94) and blades with uniform inflow, and beside them the default of this project."""
+"""The thesis' study of axial flight (Lovaco 2017, figures 17 to 20).
+
+CT and CP from a descent at V_h to a climb at V_h: the disc by eq. (94), blades with uniform inflow,
+and the defaults of this project.
+"""
 
 import math
 
@@ -38,7 +41,7 @@ def fly(rotor, task, resources):
     with rotors.own_folder() as folder:
         own = rotors.of_study(case, resources, folder)
         chosen = {**own, "collective": math.radians(pitch)}
-        # V_h is that of the disc in hover, the same for all lines of a rotor.
+        # V_h is that of the disc in hover, for all lines of a rotor.
         rotor.begin({**chosen, **SETTINGS["disc"]})
         hover = rotors.hover_speed(rotor.fly(OUTPUTS)[0], radius, rpm)
         chosen |= SETTINGS[name]

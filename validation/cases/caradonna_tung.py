@@ -1,5 +1,7 @@
-"""Hover: the two short blades of Caradonna & Tung (1981, NASA TM-81232), thrust by tip Mach number and lift along
-the radius."""
+"""Hover: the two short blades of Caradonna & Tung (1981, NASA TM-81232).
+
+Thrust against tip Mach number, and lift along the radius.
+"""
 
 import math
 
@@ -18,14 +20,15 @@ RADIUS = 1.143
 RULES = ("none", "prandtlGlauert", "karmanTsien", "laitone")
 TASKS = list(RULES)
 PITCHES = (5, 8)
-MISPRINT = 2268.0  # rev/min: the CT of this point is a reading of a misprint in the report, and is only drawn
+# rev/min; the CT of this point is read from a misprint in the report: drawn, but not compared.
+MISPRINT = 2268.0
 MACHS = [0.40 + 0.02 * i for i in range(26)]
 RPM = 1250.0
 STATIONS = range(1, 21)
 
 
 def parameters(rule, pitch, rpm, mach):
-    """Air of the temperature at which the tip has this Mach number: a^2 = gamma R T."""
+    """The temperature of the air follows from the tip Mach number: a^2 = gamma R T."""
     temperature = (rpm * math.pi / 30.0 * RADIUS / mach) ** 2 / (1.4 * 287.053)
     return {
         "geometry.file": "caradonna-tung.toml",
@@ -42,7 +45,8 @@ def fly(rotor, task, _resources):
         rotor.begin(parameters(task, pitch, rpm, mach))
         return rotor.fly(("thrustCoefficient",))[0]
 
-    # The lines have the Mach number by the rotor's speed in air of 16 degrees Celsius, as the tests had.
+    # Along the lines the rotor speed gives the Mach number, in air of 16 degrees Celsius as in the
+    # tests.
     sound = math.sqrt(1.4 * 287.053 * 289.0)
     speed = lambda mach: mach * sound / RADIUS * 30.0 / math.pi
     found = {

@@ -21,7 +21,7 @@ QUANTITIES = (("CT", "CT"), ("CQ rise", "DeltaCQ"))
 
 
 def runs(rpm):
-    """Runs at a speed by number: rows with a pitch."""
+    """Runs at a rotor speed, by number: their rows that have a pitch."""
     found = {}
     for row in measured.rows(FILE):
         if row["rpm"] == rpm and row["theta_075R_deg"] is not None:
@@ -42,7 +42,7 @@ def fly(rotor, task, _resources):
         return thrust, torque - drag
 
     drag = 0.0
-    drag = at(0.0)[1]  # untwisted and symmetric: no thrust at no pitch
+    drag = at(0.0)[1]  # untwisted symmetric blades: no thrust at zero pitch
     return {
         "line": [at(pitch) for pitch in PITCHES],
         "points": {
@@ -76,7 +76,7 @@ def report(flown, figures):
 
 
 def scatter(rpm, column):
-    """Of a single measurement, %: from the differences of the logarithms between the two runs."""
+    """Scatter of a single measurement, %, from the logarithms of the two runs."""
     logarithms = [
         [
             (r["theta_075R_deg"], math.log(r[column]))

@@ -1,6 +1,7 @@
 """Vertical descent at fixed thrust: Castles & Gray (1951, NACA TN 2474, Table I).
 
-The thrust is fixed as in the tests: a root search finds the collective at which the FMU has the measured CT.
+The thrust is fixed as in the tests: a root search finds the collective at which the FMU has the
+measured CT.
 """
 
 import math
@@ -37,7 +38,8 @@ LOWEST, HIGHEST = -12.0, 25.0  # deg of collective
 LINES = ((0.002, 1200.0), (0.004, 1200.0), (0.005, 1600.0))
 DESCENTS = [i / 20 for i in range(53)]
 OTHERS = "**the other runs**"
-JUMP = 0.01  # of the thrust: where no collective gives it, the search ends at a jump
+# Relative error of the thrust. Where no collective gives the thrust, the search ends at a jump.
+JUMP = 0.01
 
 
 def rows():
@@ -55,14 +57,15 @@ def fly(rotor, task, _resources):
     parameters = {**rotors.CASTLES_GRAY, "models.descent": law, "models.inflow": inflow}
 
     def trimmed(thrust, rpm, ratio):
-        """Collective (deg), rise of CQ, v/v_h at CT and V_d/v_h; whether that thrust can be had."""
+        """Collective (deg), rise of CQ, v/v_h, and whether some collective gives this thrust, at CT
+        and V_d/v_h."""
         speed = rotors.hover_speed(thrust, rotors.CASTLES_GRAY_RADIUS, rpm)
         at = lambda pitch: rotor.fly(
             OUTPUTS, collective=math.radians(pitch), rpm=rpm, **{"velocity[3]": -ratio * speed}
         )
         surplus = lambda pitch: at(pitch)[0] - thrust
-        # The lowest collective of those with this thrust: others are beyond stall or, in momentum theory
-        # past 2 v_h, on the branch that is not the windmill's.
+        # The lowest collective with this thrust. Higher ones are beyond stall or, in momentum
+        # theory beyond 2 v_h, on another branch than the windmill brake state.
         high = next(p for p in np.arange(LOWEST, HIGHEST) if surplus(p) > 0.0)
         pitch = brentq(surplus, high - 1.0, high, xtol=1e-4)
         own, torque, induced = at(pitch)
@@ -84,9 +87,12 @@ def fly(rotor, task, _resources):
 
 
 def halves():
-    """The law of descent fitted to half of the runs, on either half: errors of v/v_h (each run over its own hover
-    value) and in deg of collective what they are worth to a rotor at the run's thrust (3/2 of the change in inflow
-    ratio, from CT = sigma a/2 (theta_0.75/3 - lambda/2))."""
+    """The law of descent fitted to half of the runs, and its errors on either half.
+
+    Errors are those of v/v_h, each run divided by its own hover value, and what they are worth in
+    deg of collective to a rotor at the thrust of the run: 3/2 of the change in inflow ratio, from
+    CT = sigma a/2 (theta_0.75/3 - lambda/2).
+    """
     sys.path.insert(0, str(LAW_FOLDER))
     import fit
 
@@ -197,7 +203,7 @@ def report(flown, figures):
 
 
 def hover_torques(data):
-    """The rise of torque in hover at a CT in this table, and between the points of the other."""
+    """The rise of torque in hover at CT = 0.004: measured in Table I, interpolated in Table V."""
     of_runs = [
         r["DeltaCQ"]
         for r in data
@@ -213,7 +219,7 @@ def hover_torques(data):
 
 
 def scatter(data, quantity):
-    """Of a single measurement: between runs at the same CT."""
+    """Scatter of a single measurement, from the differences between runs at the same CT."""
     found = []
     for ct in sorted({r["CT"] for r in data}):
         runs = {}
@@ -270,7 +276,7 @@ def thin_points():
 def panel(axis, flown, line, place):
     for i, task in enumerate(DRAWN):
         values = [p[place] if p[3] else math.nan for p in flown[task]["lines"][line]]
-        # Momentum theory jumps to the windmill at 2 v_h.
+        # Momentum theory jumps to the windmill brake state at 2 v_h.
         cut = DESCENTS.index(2.0) + 1 if task.startswith("momentum") else len(DESCENTS)
         axis.plot(
             DESCENTS[:cut], values[:cut], **drawing.line(i), label="law " + task.replace(" ", ", ")

@@ -20,11 +20,11 @@ TASKS = [f"{lift} {blades}" for lift in LIFTS for blades in BLADES]
 COMPARED_FROM = 4.0  # deg; below, the measured thrust is too small for differences in per cent
 PITCHES = [0.5 * i for i in range(31)]
 OUTPUTS = ("thrustCoefficient", "torqueCoefficient")
-SETTING = 0.05  # deg, to which the report says that the blades were set
+SETTING = 0.05  # deg, accuracy to which the blades were set, by the report
 
 
 def points(blades):
-    """(pitch in deg, CT, CQ) of a rotor."""
+    """Rows (pitch in deg, CT, CQ) of a rotor."""
     rows = [row for row in measured.rows(FILE) if row["blades"] == blades]
     return [(row["theta_deg"], row["CT_rotor"], row["CQ_rotor"]) for row in rows]
 
@@ -80,7 +80,7 @@ def report(flown, figures):
 
 
 def torque_at(line, thrust):
-    """CQ where a computed line, (CT, CQ) by rising pitch, has a CT."""
+    """CQ at a CT on a computed line, which is (CT, CQ) by rising pitch."""
     thrusts, torques = np.array(line).T
     if not thrusts[0] <= thrust <= thrusts[-1]:
         raise ValueError(
@@ -90,7 +90,7 @@ def torque_at(line, thrust):
 
 
 def setting(compared, place):
-    """What 0.05 deg of blade angle are worth, RMS, %: from the measured slope, by a parabola through the points."""
+    """RMS effect, %, of the blade angle's accuracy, from a parabola through the points."""
     shares = []
     for rows in compared.values():
         pitch, values = np.array([(p[0], p[1 + place]) for p in rows]).T
@@ -100,7 +100,7 @@ def setting(compared, place):
 
 
 def low_pitch(flown):
-    """The points that are not in the means, with the default lift."""
+    """The points at low pitch, which are not in the errors, with the default lift."""
     rows = []
     for blades in BLADES:
         for (pitch, ct, cq), (own_ct, own_cq) in zip(

@@ -1,5 +1,7 @@
-"""The thesis' study of lift slopes (Lovaco 2017, figures 27 to 30): its lines A and B, 2 pi and the table, each with and
-without compressibility, in axial flight."""
+"""The thesis' study of lift slopes in axial flight (Lovaco 2017, figures 27 to 30).
+
+Its lines A and B, 2 pi and the table, each with and without compressibility.
+"""
 
 import math
 

@@ -1,5 +1,6 @@
-"""The thesis' study of stalled stations (Lovaco 2017, section 4.2): the last stalled and the first attached blade element
-in hover, counted from the root; and from which collective on anything stalls."""
+"""The thesis' study of stalled stations (Lovaco 2017, section 4.2): the last stalled and the first
+attached blade element in hover, counted from the root, and the collective at which stall begins.
+"""
 
 import math
 

@@ -1,7 +1,8 @@
-"""Flies one manoeuvre in FMPy through Model Exchange with CVode, through Co-Simulation, with and without input
-derivatives, and goes back to a serialized state; prints what the test compares.
+"""Flies one manoeuvre in FMPy through Model Exchange with CVode and through Co-Simulation, with and
+without input derivatives, goes back to a saved state, and prints what the test compares. It also
+holds the Rotor of the examples to its answers to slips.
 
-FMPy holds the inputs within each output interval in Model Exchange, too.
+In Model Exchange FMPy holds the inputs within each output interval.
 """
 
 import sys
@@ -22,7 +23,7 @@ parameters = {
     "drive.mode": "torque",
     "drive.inertia": 0.5,
 }
-# Nine inputs, as FMPy has room for the derivatives of nine.
+# Nine inputs: FMPy takes the derivatives of no more.
 inputs = {
     "collective": (0.14, 0.2),
     "cyclicLongitudinal": (0.0, 0.02),
@@ -83,7 +84,7 @@ with Rotor(fmu) as rotor:
     print("state", *map(repr, answers))
 
 
-# What a script copied from the examples answers to a slip.
+# What the Rotor answers to a slip.
 def refused(action):
     try:
         action()

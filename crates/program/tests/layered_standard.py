@@ -1,8 +1,11 @@
-"""Holds the reference files in an FMU against the rules of their formats; prints what breaks them, or "Conforms.".
+"""Holds the reference files in an FMU against the rules of their formats.
 
-FMI Layered Standard References: which elements, attributes and roles its manifest and the experiments file may have,
-and where files lie. Parameter sets are validated by the schema of SSP that FMPy brings. CSV files keep the rules of the
-FMI cross-check, version 4.1, appendix B, and ours: rows of inputs at each communication point.
+Prints what breaks the rules, or "Conforms.".
+
+FMI Layered Standard References: elements, attributes and roles of the manifest and the experiments
+file, and where files lie. Parameter sets are validated by the schema of SSP that comes with FMPy.
+CSV files keep the rules of the FMI cross-check, version 4.1, appendix B, and one of this project:
+there is a row of inputs at each communication point.
 
     python layered_standard.py HelicopterRotor.fmu
 """
@@ -21,7 +24,9 @@ NAMESPACE = "{http://fmi-standard.org/fmi-ls-manifest}"
 ROOT = {
     f"{NAMESPACE}fmi-ls-name": "org.fmi-standard.fmi-ls-ref",
     f"{NAMESPACE}fmi-ls-version": "1.0.0-alpha.1",
-    f"{NAMESPACE}fmi-ls-description": "Layered Standard providing information on related files included in an FMU.",
+    f"{NAMESPACE}fmi-ls-description": (
+        "Layered Standard providing information on related files included in an FMU."
+    ),
 }
 ROLES = (
     "document|requirement|specification|model|parameter|system|testcase"
