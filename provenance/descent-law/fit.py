@@ -1,13 +1,14 @@
 """Fits the law of mass flow in descent to Castles & Gray (1951, NACA TN 2474, Table I).
 
-The law is g(k) = (v_h/v)^2 at k = V_c/v: a piecewise cubic (Hermite, slopes by Fritsch & Carlson) through knots
-at fixed k, momentum theory's |1 + k| from the first knot down and from 0 up. The values at the knots are the
-fit: least soft-L1 error of v/v_h, each run divided by its own hover value, because what a rotor needs more than
-v_h in hover (tip loss, non-uniform inflow) is in the rotor model already.
+The law is g(k) = (v_h/v)^2 at k = V_c/v: a piecewise cubic (Hermite, slopes by Fritsch & Carlson)
+through knots at fixed k. Below the first knot and above 0 it is |1 + k|, as in momentum theory. The
+values at the knots are fitted: least soft-L1 error of v/v_h, each run divided by its own hover
+value, because the rotor model already has what makes this value larger than 1 (tip loss,
+non-uniform inflow).
 
-    python fit.py            prints the table for src/rotor/inflow/descent/measured.rs, the errors of this and
-                             of published laws, and how a law fitted to half of the runs does on the other
-                             half; draws descent-law.png
+    python fit.py            prints the table for crates/rotor/src/inflow/descent/measured.rs, the
+                             errors of this law and of published laws, and how a law fitted to half
+                             of the runs does on the other half; draws descent-law.png
 """
 
 import csv
@@ -29,7 +30,7 @@ START = np.array([1.0, 0.62, 0.44, 0.34, 0.23, 0.18, 0.30, 0.55])
 
 
 def measured():
-    """Runs by number: arrays of V_d/v_h and of v/v_h over its value in hover."""
+    """Runs by number: arrays of V_d/v_h, and of v/v_h divided by its value in hover."""
     lines = [l for l in DATA.read_text().splitlines() if not l.startswith("#")]
     runs = {}
     for row in csv.DictReader(lines):
