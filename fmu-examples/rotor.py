@@ -45,7 +45,8 @@ class RotorError(Exception):
 
 @contextmanager
 def unpacked(fmu):
-    """The folder with the content of an .fmu, removed at the end. A folder is used as it is."""
+    """The folder with the content of an .fmu, removed at the end. A folder is used as it is: name
+    one to unpack once for several instances."""
     if Path(fmu).is_dir():
         yield str(fmu)
         return
@@ -65,8 +66,8 @@ class Rotor:
     """One instance of the FMU.
 
     It begins in Initialization Mode: parameters and inputs can be set, and outputs are those of the
-    steady start with them. `start`, or the first `step`, ends this mode. Then parameters can no
-    longer be set, and outputs are those at the end of the last step.
+    steady start with them. `start`, or the first `step`, ends this mode. Then fixed parameters can
+    no longer be set, and outputs are those at the end of the last step.
 
     `fmu`: the .fmu, or the folder where it is unpacked already, which saves time where several
     instances are made. `interface`: "CoSimulation" or "ModelExchange".
@@ -196,7 +197,7 @@ class Rotor:
         """Exact derivatives of the unknowns (rows) by the knowns (columns).
 
         In Initialization Mode the states move with the inputs to the steady start; after it they
-        are held. State derivatives are called "der(...)", states "state...".
+        are held. A state derivative is called "der(...)", with the name of its state.
         """
         rows = self._references(unknowns)
         derivative = self.fmu.getDirectionalDerivative
