@@ -2,30 +2,31 @@
 
     python check_reference.py --fmu HelicopterRotor.fmu
 
-flies them in FMPy with what lies in the FMU alone: parameters, inputs, communication step; with `--interface
-ModelExchange`, CVode integrates the FMU's states.
+flies them in FMPy, only with what is in the FMU: parameters, inputs and communication step. With
+`--interface ModelExchange` CVode integrates the states of the FMU.
 
     python check_reference.py --fmu HelicopterRotor.fmu --results FOLDER
 
-compares what another importer made: FOLDER/<experiment>.csv with a column "time" and one for each output. Either way
-the largest deviation of each output is printed, in % of the largest magnitude in its reference; one above the
-tolerance is an error.
+compares the results of another importer: FOLDER/<experiment>.csv with a column "time" and one for
+each output. In both cases the largest deviation of each output is printed, in % of the largest
+magnitude in its reference; a deviation above the tolerance is an error.
 """
 
-import argparse
 import csv
 import sys
-import tempfile
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from fmpy import extract, read_model_description, simulate_fmu
+from fmpy import read_model_description, simulate_fmu
+
+from rotor import as_numbers, unpacked
+from script import command_line
 
 FOLDER = "extra/org.fmi-standard.fmi-ls-ref"
 TOLERANCE = 1.0  # %
-SOLVER_TOLERANCE = 1e-6  # relative, of CVode in Model Exchange: its errors are far below those that are looked for
+SOLVER_TOLERANCE = 1e-6  # relative, of CVode; its errors are far below TOLERANCE
 SAME_TIME = 1e-6  # s
 
 
@@ -47,15 +48,15 @@ def columns(path):
 
 
 def parameters(path):
-    """Names and values, as texts, of a parameter set (SSV)."""
+    """Names and values (as text) of a parameter set (SSV)."""
     space = "{http://ssp-standard.org/SSP1/SystemStructureParameterValues}"
     found = ET.parse(path).iter(f"{space}Parameter")
     return {parameter.get("name"): parameter[0].get("value") for parameter in found}
 
 
-def experiments(unzipped):
+def experiments(content):
     """The experiments that the manifest of the layered standard names."""
-    folder = Path(unzipped) / FOLDER
+    folder = Path(content) / FOLDER
     for related in ET.parse(folder / "fmi-ls-manifest.xml").iter("Related"):
         if related.get("role").split("/")[0] != "experiment":
             continue
@@ -72,19 +73,9 @@ def experiments(unzipped):
             )
 
 
-def fly(unzipped, description, experiment, interface):
-    """Columns of what FMPy computes, at each communication point."""
-    variables = {v.name: v for v in description.modelVariables}
-    items = {t.name: t.items for t in description.typeDefinitions if t.items}
-
-    def value(name, text):
-        """FMPy takes enumerations as numbers."""
-        variable = variables[name]
-        if variable.type != "Enumeration":
-            return text
-        return next(item.value for item in items[variable.declaredType.name] if item.name == text)
-
-    # Inputs that are not named keep their start values.
+def fly(folder, description, experiment, interface):
+    """The columns that FMPy computes, at each communication point."""
+    # Inputs that the experiment does not name keep their start values.
     count = len(experiment.inputs["time"])
     others = {
         v.name: np.full(count, float(v.start))
@@ -93,14 +84,15 @@ def fly(unzipped, description, experiment, interface):
     }
     inputs = experiment.inputs | others
     result = simulate_fmu(
-        unzipped,
+        folder,
         fmi_type=interface,
         relative_tolerance=SOLVER_TOLERANCE if interface == "ModelExchange" else None,
         model_description=description,
         stop_time=experiment.stop,
-        # In Model Exchange FMPy holds the inputs in each interval, too, and CVode runs on with them beyond its end.
+        # In Model Exchange FMPy holds the inputs within each interval, and CVode may step beyond
+        # its end with them: short intervals keep this error small.
         output_interval=experiment.step / (4 if interface == "ModelExchange" else 1),
-        start_values={name: value(name, text) for name, text in experiment.parameters.items()},
+        start_values=as_numbers(description, experiment.parameters),
         input=np.rec.fromarrays(list(inputs.values()), names=list(inputs)),
         output=[name for name in experiment.reference if name != "time"],
     )
@@ -108,7 +100,7 @@ def fly(unzipped, description, experiment, interface):
 
 
 def deviations(result, reference):
-    """Of each output: its largest deviation, % of its largest magnitude, and the time of it."""
+    """For each output its largest deviation, in % of its largest magnitude, and the time of it."""
     times = reference["time"]
     if "time" not in result:
         raise ValueError('there is no column "time"')
@@ -127,33 +119,37 @@ def deviations(result, reference):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu with the references")
-    parser.add_argument("--results", type=Path, help="folder with <experiment>.csv of another importer")
+    parser = command_line(__doc__)
+    parser.add_argument(
+        "--results", type=Path, help="folder with <experiment>.csv of another importer"
+    )
     parser.add_argument(
         "--interface",
         choices=["CoSimulation", "ModelExchange"],
         default="CoSimulation",
         help="what FMPy flies [default: %(default)s]",
     )
-    parser.add_argument("--tolerance", type=float, default=TOLERANCE, help="in %% [default: %(default)s]")
+    parser.add_argument(
+        "--tolerance", type=float, default=TOLERANCE, help="in %% [default: %(default)s]"
+    )
     arguments = parser.parse_args()
 
     failed = []
-    with tempfile.TemporaryDirectory() as folder:
-        unzipped = extract(str(arguments.fmu), unzipdir=folder)
-        description = read_model_description(unzipped)
+    with unpacked(arguments.fmu) as folder:
+        description = read_model_description(folder)
         print("experiment    output                  deviation, %   at, s")
-        for experiment in experiments(unzipped):
+        for experiment in experiments(folder):
             try:
                 if arguments.results:
                     result = columns(arguments.results / f"{experiment.name}.csv")
                 else:
-                    result = fly(unzipped, description, experiment, arguments.interface)
+                    result = fly(folder, description, experiment, arguments.interface)
                 for output, deviation, time in deviations(result, experiment.reference):
                     print(f"{experiment.name:12}  {output:22}  {deviation:12.4f}  {time:6.3f}")
                     if not deviation <= arguments.tolerance:
-                        failed.append(f"{experiment.name}: {output} is off by {deviation:.3g} % at {time:g} s")
+                        failed.append(
+                            f"{experiment.name}: {output} is off by {deviation:.3g} % at {time:g} s"
+                        )
             except (OSError, ValueError) as error:
                 failed.append(f"{experiment.name}: {error}")
     if failed:

@@ -1,6 +1,7 @@
 """Reads the rotor's thrust while the collective ramps from 0 to 12 degrees in two seconds.
 
-The FMU is driven by hand, call by call, as in a simulation loop of one's own:
+This shows FMPy's own calls, one by one, as in a simulation loop that you write yourself. The other
+examples use rotor.py, which makes these calls for them.
 
     python collective_ramp.py --fmu HelicopterRotor.fmu
 """

@@ -1,50 +1,42 @@
-"""Flies a light helicopter from hover through an engine failure to the ground, in vertical autorotation.
+"""Flies a light helicopter from hover through an engine failure to a landing in autorotation.
 
-The rotor is the FMU, turned by a torque and not at an imposed speed (drive.mode = torque). Around it are, in
-this script, an engine with a governor, a point mass that moves up and down, and a pilot. Straight
-down is the hardest case: there is no forward speed to trade for rotor speed in a flare, so that all that
-cushions the landing is the energy in the rotor.
+The rotor is the FMU, turned by a torque instead of at an imposed speed (drive.mode = torque). This
+script adds an engine with a governor, a point mass that moves up and down, and a pilot. Vertical
+descent is the hardest case: there is no forward speed to trade for rotor speed in a flare, so the
+energy in the rotor alone cushions the landing.
 
     python engine_off.py --fmu HelicopterRotor.fmu --out FOLDER
 
-prints the flight and writes into FOLDER engine-off.csv and engine-off.png.
+prints the flight and writes engine-off.csv and engine-off.png into FOLDER.
 """
 
-import argparse
-import csv
 import math
-import sys
-import tempfile
-from pathlib import Path
 
-import matplotlib
+from rotor import Rotor
+from script import command_line, plt, save_plot, write_table
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave
-
-# A light helicopter with two heavy blades, near those of the 1950s; sea level.
+# A light helicopter with two heavy blades, like those of the 1950s, at sea level.
 GRAVITY = 9.81  # m/s2
 DENSITY = 1.225  # kg/m3
 MASS = 1200.0  # kg
 RADIUS = 5.6  # m; with the mass, a disc loading of 120 N/m2
 CHORD = 0.28  # m; a solidity of 0.032
 BLADES = 2
-RPM = 340.0  # a tip speed of 199 m/s; CT/sigma is 0.08, about half of what stalls the blades
-# Blades with weights in their tips: a Lock number rho a c R^4/I of 5, I of one blade about its root. The
-# rotor then holds 0.5 MJ, the power of hover for four seconds.
+RPM = 340.0  # a tip speed of 199 m/s; CT/sigma is 0.08, about half that at stall
+# Blades with weights in their tips: a Lock number rho a c R^4/I of 5, where I is the inertia of one
+# blade about its root. The rotor then stores 0.5 MJ, enough for four seconds of hover power.
 INERTIA = BLADES * DENSITY * 2.0 * math.pi * CHORD * RADIUS**4 / 5.0  # kg m2
 PARAMETERS = {
     "geometry.numberOfBlades": BLADES,
     "geometry.radius": RADIUS,
     "geometry.rootCutout": 0.15,
     "geometry.chord": CHORD,
-    # The reserve in thrust is bounded by stall: section data at the blades' Reynolds number, 3 million.
+    # Stall limits the thrust in the landing, so the section data must reach the Reynolds number of
+    # these blades, 3 million.
     "airfoil.file": "airfoils/naca0015.polar",
     "air.atmosphere": "userDefined",
     "air.density": DENSITY,
-    # Inflow takes time to build up, some tenths of a second: a quick pull of the pitch gives more thrust.
+    # Inflow takes some tenths of a second to build up, so a quick pull gives more thrust at first.
     "models.inflow": "pittPetersDynamic",
     "models.descent": "measured",
     "models.groundEffect": "cheesemanBennett",
@@ -56,103 +48,47 @@ WEIGHT = MASS * GRAVITY  # N
 SPEED = RPM * math.pi / 30.0  # rad/s
 HOVER_INFLOW = math.sqrt(WEIGHT / (2.0 * DENSITY * math.pi * RADIUS**2))  # v_h, m/s
 
-# Textbooks have helicopters autorotate vertically at 1.7 to 1.9 v_h (Leishman 2006).
-TEXTBOOK = 1.85 * HOVER_INFLOW  # m/s, drawn beside what is flown
+# Helicopters autorotate vertically at 1.7 to 1.9 v_h (Leishman 2006).
+TEXTBOOK = 1.85 * HOVER_INFLOW  # m/s, drawn beside the flight
 
-# The engine: its governor is a PI controller on rotor speed, between no torque and the most it has. The gains
-# answer 1 % of rotor speed with a tenth of the torque of hover, and make up the rest in a second.
+# The governor of the engine is a PI controller on rotor speed, limited to torques from zero to the
+# engine's maximum. It answers an error of 1 % in rotor speed with a tenth of the hover torque, and
+# removes the error within about a second.
 MOST_TORQUE = 5000.0  # N m, 180 kW
 PROPORTIONAL = 1000.0  # N m/(rad/s)
 INTEGRAL = 1000.0  # N m/rad
 
 # The flight.
-STEP = 0.01  # s; forces and motion take turns. At a fifth of it the touch-down is 2 % faster
+STEP = 0.01  # s; the touch-down is 2 % faster with a fifth of it
 FAILURE = 3.0  # s
-REACTION = 1.0  # s, in which the pilot does nothing: usual in certification
-START_HEIGHT = 250.0  # m, of the hub: enough for the autorotation to become steady
+REACTION = 1.0  # s before the pilot reacts, as usual in certification
+START_HEIGHT = 250.0  # m, of the hub; enough for a steady autorotation
 GROUND_HEIGHT = 3.0  # m, of the hub when the skids touch
 
 # The pilot's collective.
 LOWEST_PITCH, HIGHEST_PITCH = 0.0, 16.0  # deg, the stops
 LOWERING = 8.0  # deg/s, at most
 PULLING = 12.0  # deg/s, at most
-# In autorotation more pitch slows the rotor: pitch follows rotor speed and, slowly, its error.
+# In autorotation more pitch slows the rotor: a PI controller on rotor speed moves the pitch.
 PITCH_PER_SPEED = 1.0  # deg/(rad/s)
 PITCH_PER_ANGLE = 0.3  # deg/rad
-# The landing: a constant deceleration down to the speed of touch-down. A weaker one lasts longer than the
-# energy of the rotor does, a stronger one begins too late for the pitch to follow: at 4.5 m/s2 the skids
-# touch at 2.4 m/s, at 7 m/s2 at 3.2. The speed is what the pilot aims at; he misses it, for in the end the
-# pitch is at its stop.
+# The landing: a constant deceleration down to the touch-down speed. A weaker one outlasts the
+# energy of the rotor, and a stronger one begins too late for the pitch to follow: the skids touch
+# at 2.4 m/s with 4.5 m/s2 and at 3.2 m/s with 7 m/s2. The pilot aims at TOUCH_DOWN and lands
+# faster, because the pitch reaches its stop.
 DECELERATION = 5.5  # m/s2
 TOUCH_DOWN = 1.0  # m/s
-# Pitch rate for acceleration that is missing; 1 deg of pitch is worth about 1 m/s2.
+# Pitch rate for missing acceleration; 1 deg of pitch changes it by about 1 m/s2.
 PITCH_RATE_PER_ACCELERATION = 6.0  # (deg/s)/(m/s2)
-CATCHING = 0.3  # s, in which an error of the sink rate is made up
-
-
-class Rotor:
-    """An instance of the FMU, driven by a torque."""
-
-    def __init__(self, unzipped, description, parameters):
-        self.variables = {v.name: v for v in description.modelVariables}
-        self.choices = {
-            t.name: {item.name: int(item.value) for item in t.items}
-            for t in description.typeDefinitions
-            if t.items
-        }
-        self.slave = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=unzipped,
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName="rotor",
-        )
-        self.slave.instantiate()
-        for name, value in parameters.items():
-            self.set(name, value)
-        self.slave.setupExperiment(startTime=0.0)
-        self.slave.enterInitializationMode()
-        self.time = 0.0
-
-    def set(self, name, value):
-        """A number, a text, or the name of an enumeration's item."""
-        variable = self.variables[name]
-        reference = [variable.valueReference]
-        if variable.type == "Enumeration":
-            choice = self.choices[variable.declaredType.name][value]
-            self.slave.setInteger(reference, [choice])
-        elif variable.type == "Integer":
-            self.slave.setInteger(reference, [value])
-        elif variable.type == "String":
-            self.slave.setString(reference, [value])
-        else:
-            self.slave.setReal(reference, [value])
-
-    def get(self, name):
-        return self.slave.getReal([self.variables[name].valueReference])[0]
-
-    def flow_state(self):
-        """Name of the state of the flow through the rotor."""
-        (number,) = self.slave.getInteger([self.variables["flowState"].valueReference])
-        return next(name for name, n in self.choices["FlowState"].items() if n == number)
-
-    def start(self):
-        self.slave.exitInitializationMode()
-
-    def step(self, duration):
-        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=duration)
-        self.time += duration
-
-    def close(self):
-        self.slave.terminate()
-        self.slave.freeInstance()
+CATCHING = 0.3  # s, the time constant in which an error of the sink rate is corrected
 
 
 def hover_pitch(rotor):
-    """The collective (deg) of hover, by the secant method; the rotor is being initialised at its rpm."""
+    """The collective (deg) of hover, by the secant method, in Initialization Mode."""
 
     def excess(pitch):
-        rotor.set("collective", math.radians(pitch))
-        return rotor.get("thrust") - WEIGHT
+        rotor.set({"collective": math.radians(pitch)})
+        return rotor["thrust"] - WEIGHT
 
     before, pitch = 6.0, 10.0
     surplus_before, surplus = excess(before), excess(pitch)
@@ -171,7 +107,7 @@ def limited(value, low, high):
 
 
 class Engine:
-    """With its governor; `torque` is that of hover to begin with."""
+    """The engine with its governor; it begins at the hover `torque`."""
 
     def __init__(self, torque):
         self.held = torque
@@ -185,18 +121,18 @@ class Engine:
 
 
 class Pilot:
-    """Moves the collective (deg); `landing` is the time at which the pull before the ground begins."""
+    """Moves the collective (deg). `landing` is the time at which the pull before landing begins."""
 
     def __init__(self, pitch):
         self.pitch = pitch
-        self.held = None  # the pitch that the rotor speed needs in autorotation, once it turns fast again
+        self.held = None  # deg, the integral part of the pitch in autorotation
         self.landing = None
 
     def move(self, time, height, sink, acceleration, speed):
-        """The collective for the next step; `acceleration` is that upwards."""
+        """The collective for the next step; `acceleration` is positive upwards."""
         if time < FAILURE + REACTION:
             return self.pitch
-        # The sink rate from which the deceleration just ends at the ground.
+        # The sink rate from which the constant deceleration ends at the ground.
         left = max(height - GROUND_HEIGHT, 0.0)
         allowed = math.sqrt(TOUCH_DOWN**2 + 2.0 * DECELERATION * left)
         if self.landing is None and sink >= allowed:
@@ -211,10 +147,10 @@ class Pilot:
         return self.pitch
 
     def for_speed(self, speed):
-        """The pitch that brings the rotor back to its speed and holds it there."""
+        """The pitch that brings the rotor back to its nominal speed and holds it there."""
         excess = speed - SPEED
         if self.held is None:
-            # Down to the stop until the rotor has nearly its speed again.
+            # At the lower stop until the rotor is back within 5 % of its nominal speed.
             if excess < -0.05 * SPEED:
                 return LOWEST_PITCH
             self.held = self.pitch - PITCH_PER_SPEED * excess
@@ -223,19 +159,18 @@ class Pilot:
 
 
 def fly(rotor):
-    """The rows of the table, a row for each step until touch-down, and the times of what happens."""
-    rotor.set("rpm", RPM)
-    rotor.set("heightAboveGround", START_HEIGHT)
+    """The table, a row for each step until touch-down, and the time at which the pilot pulls."""
+    rotor.set({"rpm": RPM, "heightAboveGround": START_HEIGHT})
     pitch = hover_pitch(rotor)
-    engine, pilot = Engine(rotor.get("torque")), Pilot(pitch)
-    rotor.set("driveTorque", rotor.get("torque"))
+    engine, pilot = Engine(rotor["torque"]), Pilot(pitch)
+    rotor.set({"driveTorque": rotor["torque"]})
     rotor.start()
 
     height, climb, rows = START_HEIGHT, 0.0, []
     while True:
-        speed = rotor.get("rotorSpeed") * math.pi / 30.0
-        thrust = rotor.get("force[3]")
-        # No drag of the fuselage: it would be some per cent of the weight.
+        speed = rotor["rotorSpeed"] * math.pi / 30.0
+        thrust = rotor["force[3]"]
+        # The drag of the fuselage, some per cent of the weight, is left out.
         acceleration = thrust / MASS - GRAVITY
         torque = engine.torque(rotor.time, speed)
         pitch = pilot.move(rotor.time, height, -climb, acceleration, speed)
@@ -245,13 +180,13 @@ def fly(rotor):
                 "height": height,
                 "sink_rate": -climb,
                 "collective": pitch,
-                "rpm": rotor.get("rotorSpeed"),
+                "rpm": rotor["rotorSpeed"],
                 "drive_torque": torque,
-                "rotor_torque": rotor.get("torque"),
+                "rotor_torque": rotor["torque"],
                 "thrust": thrust,
-                "induced_velocity": rotor.get("inducedVelocity"),
-                "stalled_fraction": rotor.get("stalledFraction"),
-                "flow_state": rotor.flow_state(),
+                "induced_velocity": rotor["inducedVelocity"],
+                "stalled_fraction": rotor["stalledFraction"],
+                "flow_state": rotor["flowState"],
             }
         )
         if height <= GROUND_HEIGHT:
@@ -261,35 +196,42 @@ def fly(rotor):
             show(rows[-1])
         if rotor.time > 120.0:
             raise RuntimeError("the helicopter does not come down")
-        rotor.set("collective", math.radians(pitch))
-        rotor.set("driveTorque", torque)
-        rotor.set("velocity[3]", climb)
-        rotor.set("heightAboveGround", height)
+        rotor.set(
+            {
+                "collective": math.radians(pitch),
+                "driveTorque": torque,
+                "velocity[3]": climb,
+                "heightAboveGround": height,
+            }
+        )
         rotor.step(STEP)
-        # Symplectic Euler: the new speed moves the mass.
+        # Symplectic Euler: the mass moves at the new speed.
         climb += acceleration * STEP
         height = max(height + climb * STEP, GROUND_HEIGHT)
     return rows, pilot.landing
 
 
 def steady(rows, landing):
-    """Means over the last two seconds before the pull: sink rate (m/s), rotor speed (rpm), pitch (deg)."""
+    """Averages over the last two seconds before the pull: sink rate (m/s), rotor speed (rpm) and
+    collective (deg)."""
     chosen = [row for row in rows if landing - 2.0 <= row["time"] < landing]
     return [sum(row[n] for row in chosen) / len(chosen) for n in ("sink_rate", "rpm", "collective")]
 
 
 def plot(rows, landing, file):
-    """Everything against time, on bands for the states of the flow."""
+    """The flight against time, on bands for the states of the flow."""
     times = [row["time"] for row in rows]
     end = times[-1]
-    # Name, its words, and its band: the faster the descent, the darker, in black and white too.
+    # Label and colour of each state; faster descents are darker, also in black and white.
     states = {
         "normal": ("normal", "white"),
         "vortexRing": ("vortex ring", "#fbe8c3"),
         "turbulentWake": ("turbulent wake", "#b5cde8"),
         "windmillBrake": ("windmill brake", "#8f9fc4"),
     }
-    starts = [i for i in range(len(rows)) if i == 0 or rows[i]["flow_state"] != rows[i - 1]["flow_state"]]
+    starts = [
+        i for i in range(len(rows)) if i == 0 or rows[i]["flow_state"] != rows[i - 1]["flow_state"]
+    ]
     bands = [
         (times[i], end if j is None else times[j], rows[i]["flow_state"])
         for i, j in zip(starts, [*starts[1:], None])
@@ -342,7 +284,9 @@ def plot(rows, landing, file):
     sink_axis.text(16.0, sink - 1.0, words, va="top", fontsize=9)
     last = rows[-1]
     note = {"ha": "right", "va": "center", "fontsize": 9, "arrowprops": {"arrowstyle": "-"}}
-    sink_axis.annotate(f"{last['sink_rate']:.1f} m/s", (end, last["sink_rate"]), (end - 2.2, 2.0), **note)
+    sink_axis.annotate(
+        f"{last['sink_rate']:.1f} m/s", (end, last["sink_rate"]), (end - 2.2, 2.0), **note
+    )
     pitch_axis.text(16.0, pitch + 1.0, f"{pitch:.1f} deg", va="bottom", fontsize=9)
     speed_axis.axhline(RPM, color="black", linewidth=0.9, linestyle="--")
     speed_axis.text(16.0, RPM - 6.0, "held by the collective", va="top", fontsize=9)
@@ -354,17 +298,10 @@ def plot(rows, landing, file):
         axis.set_ylim(bottom=-0.02 * axis.get_ylim()[1])
     speed_axis.set_ylim(200.0, 370.0)
     thrust_axis.set_xlabel("time, s")
-    figure.suptitle("Engine failure in hover, vertical autorotation and landing: HelicopterRotor.fmu")
-    figure.savefig(file, dpi=130)
-    plt.close(figure)
-
-
-def write(rows, file):
-    """All rows of a table."""
-    with file.open("w", newline="", encoding="utf-8") as out:
-        writer = csv.DictWriter(out, fieldnames=list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)
+    figure.suptitle(
+        "Engine failure in hover, vertical autorotation and landing: HelicopterRotor.fmu"
+    )
+    save_plot(figure, file)
 
 
 def show(row):
@@ -377,29 +314,18 @@ def show(row):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
-    parser.add_argument("--out", type=Path, default=Path("."), help="folder for table and plot")
-    arguments = parser.parse_args()
-    if not arguments.fmu.is_file():
-        sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
-    arguments.out.mkdir(parents=True, exist_ok=True)
-
+    arguments = command_line(__doc__, out="folder for table and plot").parse_args()
     print("  time  height   sink  collective    rpm   thrust  flow")
     print("     s       m    m/s         deg               N")
-    with tempfile.TemporaryDirectory() as folder:
-        unzipped = extract(str(arguments.fmu), unzipdir=folder)
-        description = read_model_description(unzipped)
-        rotor = Rotor(unzipped, description, PARAMETERS)
+    with Rotor(arguments.fmu, PARAMETERS) as rotor:
         rows, landing = fly(rotor)
-        rotor.close()
     sink, speed, pitch = steady(rows, landing)
     print(
         f"Steady autorotation: {sink:.2f} m/s = {sink / HOVER_INFLOW:.2f} v_h at {speed:.0f} rpm,"
         f" collective {pitch:.2f} deg"
     )
     print(f"Touch-down: {rows[-1]['sink_rate']:.2f} m/s at {rows[-1]['rpm']:.0f} rpm")
-    write(rows, arguments.out / "engine-off.csv")
+    write_table(rows, arguments.out / "engine-off.csv")
     plot(rows, landing, arguments.out / "engine-off.png")
     print(f"Table and plot: {arguments.out / 'engine-off'}.csv, engine-off.png")
 

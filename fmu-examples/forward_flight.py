@@ -1,33 +1,25 @@
 """Flies the rotor with flapping blades in level flight from hover to an advance ratio of 0.35.
 
-At each speed collective and shaft tilt are trimmed, so that the rotor carries the same weight and
-pulls a fuselage's drag, with three inflow models. There is no cyclic pitch: the tip path flaps back
-from the plane of the hub as it likes, and the shaft is tilted forward to make up for it.
+At each speed collective and shaft tilt are trimmed so that the rotor carries the same weight and
+overcomes the drag of a fuselage, with three inflow models. There is no cyclic pitch: the tip path
+flaps back freely from the hub plane, and the forward tilt of the shaft makes up for it.
 
     python forward_flight.py --fmu HelicopterRotor.fmu --out FOLDER
 
 prints the trim and writes into FOLDER
 
     forward-flight.csv, .png     forces, power and flapping against advance ratio
-    angle-of-attack.csv, .png    the angle of attack all over the disc at the highest advance ratio
+    angle-of-attack.csv, .png    angle of attack over the whole disc at the highest advance ratio
 """
 
-import argparse
-import csv
 import math
-import sys
-import tempfile
-from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
-from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Slave
 
-# The FMU's default rotor: untwisted blades, hinged at the shaft's axis; sea level.
+from rotor import Rotor, unpacked
+from script import command_line, plt, save_plot, write_table
+
+# The FMU's default rotor at sea level: untwisted blades, hinged on the shaft axis.
 RPM = 960.0
 RADIUS = 0.762  # m
 CHORD = 0.0508  # m
@@ -35,21 +27,21 @@ CUTOUT = 1.0 / 6.0
 DENSITY = 1.225  # kg/m3
 TIP_SPEED = RPM * math.pi / 30.0 * RADIUS  # m/s
 
-# How heavy the blades are is said by their Lock number, rho a c R^4/I; 8 is usual in helicopters.
+# From a Lock number rho a c R^4/I of 8, which is usual for helicopters.
 INERTIA = DENSITY * 2.0 * math.pi * CHORD * RADIUS**4 / 8.0  # kg m2
 
 WEIGHT = 60.0  # N; the rotor hovers with it at 7.5 to 8 degrees of collective
-DRAG_AREA = 0.01 * math.pi * RADIUS**2  # m2; a clean helicopter's is about 1 % of the disc area
+DRAG_AREA = 0.01 * math.pi * RADIUS**2  # m2, 1 % of the disc area: a clean helicopter
 
 ADVANCE_RATIOS = [0.0, 0.025, 0.05, 0.075, 0.1, 0.15, 0.2, 0.25, 0.3, 0.35]
-# Inflow model: its marker and line, and the turns after which the rotor has forgotten what was before.
-# (Flapping dies away by exp(-pi/8 * Lock number) in a turn, dynamic inflow more slowly.)
+# Inflow model: marker and line, and the number of revolutions in which the rotor settles after a
+# change. (Flapping decays by exp(-pi/8 * Lock number) per revolution, dynamic inflow more slowly.)
 MODELS = {"uniform": ("o", "", 2), "pittPetersDynamic": ("", "-", 6), "petersHe": ("", ":", 6)}
 DISC_MODEL = "pittPetersDynamic"
 TOLERANCE = 5e-4 * WEIGHT  # N, of the trim
 
-TURN = 60.0 / RPM  # s
-# Outputs of which means over a turn are taken, the forces that are trimmed first.
+REVOLUTION = 60.0 / RPM  # s
+# Outputs that are averaged over one revolution; the trimmed forces come first.
 MEANS = {
     "forward": "force[1]",
     "up": "force[3]",
@@ -60,82 +52,51 @@ MEANS = {
     "a1": "longitudinalFlapping",
     "b1": "lateralFlapping",
 }
-MEAN_POINTS = 36  # points of a turn over which the pulsating loads are averaged
-AZIMUTH_STEP = 2.0 * math.pi / MEAN_POINTS  # rad; with the default, 3 degrees, means differ by 0.1 %
-DISC_POINTS = 120  # points of the turn that is drawn
+MEAN_POINTS = 36  # points of a revolution over which the pulsating loads are averaged
+# rad; averages differ by 0.1 % from those with the default of 3 degrees.
+AZIMUTH_STEP = 2.0 * math.pi / MEAN_POINTS
+DISC_POINTS = 120  # points of the revolution that is drawn
 STATIONS = range(1, 21)
+PARAMETERS = {
+    "flapping.enabled": True,
+    "flapping.inertia": INERTIA,
+    "numerics.azimuthStep": AZIMUTH_STEP,
+}
 
 
-class Rotor:
-    """An instance of the FMU with flapping blades and one inflow model."""
-
-    def __init__(self, unzipped, description, model):
-        self.reference = {v.name: v.valueReference for v in description.modelVariables}
-        choices = next(t for t in description.typeDefinitions if t.name == "InflowModel").items
-        number = next(int(item.value) for item in choices if item.name == model)
-        self.slave = FMU2Slave(
-            guid=description.guid,
-            unzipDirectory=unzipped,
-            modelIdentifier=description.coSimulation.modelIdentifier,
-            instanceName=model,
-        )
-        self.slave.instantiate()
-        self.slave.setInteger([self.reference["models.inflow"]], [number])
-        self.slave.setBoolean([self.reference["flapping.enabled"]], [True])
-        parameters = [self.reference["flapping.inertia"], self.reference["numerics.azimuthStep"]]
-        self.slave.setReal(parameters, [INERTIA, AZIMUTH_STEP])
-        self.slave.setupExperiment(startTime=0.0)
-        self.slave.enterInitializationMode()
-        self.slave.setReal([self.reference["rpm"]], [RPM])
-        self.slave.exitInitializationMode()
-        self.time = 0.0
-
-    def set(self, collective, tilt, speed):
-        """Angles in degrees, forward speed in m/s."""
-        names = ["collective", "tilt", "velocity[1]"]
-        values = [math.radians(collective), math.radians(tilt), speed]
-        self.slave.setReal([self.reference[name] for name in names], values)
-
-    def step(self, duration):
-        self.slave.doStep(currentCommunicationPoint=self.time, communicationStepSize=duration)
-        self.time += duration
-
-    def turn(self, names, points):
-        """The named variables (columns) at `points` evenly spaced points of the next turn (rows)."""
-        references = [self.reference[name] for name in names]
-        rows = []
-        for _ in range(points):
-            self.step(TURN / points)
-            rows.append(self.slave.getReal(references))
-        return np.array(rows)
-
-    def close(self):
-        self.slave.terminate()
-        self.slave.freeInstance()
+def revolution(rotor, names, points):
+    """Named variables (columns) at `points` evenly spaced points of the next revolution (rows)."""
+    rows = []
+    for _ in range(points):
+        rotor.step(REVOLUTION / points)
+        rows.append(rotor.get(names))
+    return np.array(rows)
 
 
 class Flight:
-    """A rotor whose collective and tilt are trimmed; what it learns at one speed helps at the next."""
+    """A rotor whose collective and tilt are trimmed, speed by speed; each trim helps the next."""
 
     def __init__(self, rotor, settling):
         self.rotor = rotor
         self.settling = settling
         self.controls = np.array([8.0, 0.0])  # collective and tilt, deg
-        self.slope = None  # of the forces with the controls, N/deg
-        self.before = []  # the two last speeds and their controls
-        self.means = {}  # of the last turn
+        self.slope = None  # derivatives of the forces by the controls, N/deg
+        self.before = []  # the last two speeds with their controls
+        self.means = {}  # averages over the last revolution
 
     def excess(self, controls, speed):
-        """Mean force beyond what level flight needs, forward and up, N."""
-        self.rotor.set(*controls, speed)
+        """Mean force in excess of what level flight needs, forward and up, N."""
+        collective, tilt = map(math.radians, controls)
+        self.rotor.set({"collective": collective, "tilt": tilt, "velocity[1]": speed})
         for _ in range(self.settling):
-            self.rotor.step(TURN)
-        turn = self.rotor.turn(list(MEANS.values()), MEAN_POINTS)
-        self.means = dict(zip(MEANS, turn.mean(axis=0).tolist()))
+            self.rotor.step(REVOLUTION)
+        points = revolution(self.rotor, MEANS.values(), MEAN_POINTS)
+        self.means = dict(zip(MEANS, points.mean(axis=0).tolist()))
         return np.array([self.means["forward"] - drag(speed), self.means["up"] - WEIGHT])
 
     def trim(self, speed):
-        """Finds collective and tilt by Broyden's method (1965), from a straight line through the last two."""
+        """Finds collective and tilt by Broyden's method (1965), starting from the extrapolation of
+        the last two trims."""
         if len(self.before) == 2:
             (speed_1, controls_1), (speed_2, controls_2) = self.before
             rise = (controls_2 - controls_1) / (speed_2 - speed_1)
@@ -156,12 +117,13 @@ class Flight:
 
 
 def drag(speed):
-    """Of the fuselage, N."""
+    """Drag of the fuselage, N."""
     return 0.5 * DENSITY * speed**2 * DRAG_AREA
 
 
 def fly(flight, model):
-    """Rows of the table, one for each advance ratio: means over a turn, forces in N, angles in deg."""
+    """Rows of the table, one for each advance ratio: averages over one revolution, forces in N,
+    angles in deg."""
     for mu in ADVANCE_RATIOS:
         speed = mu * TIP_SPEED
         flight.trim(speed)
@@ -174,7 +136,7 @@ def fly(flight, model):
             "tilt": flight.controls[1],
             "thrust": thrust,
             "H": backward,
-            # The part of the same force along the tip-path plane, which leans back by a1.
+            # The same force along the tip-path plane, which leans back by a1.
             "H_tip_path": backward * math.cos(a1) - thrust * math.sin(a1),
             "power": means["power"],
             "parasite_power": drag(speed) * speed,
@@ -185,20 +147,21 @@ def fly(flight, model):
 
 
 def disc(rotor):
-    """The advance ratio along the disc, and azimuths (deg), radii (r/R) and angles of attack (deg, a
-    row for each azimuth) of blade 1 over a turn."""
-    mu, *radii = rotor.turn(["advanceRatio"] + [f"station[{k}].radius" for k in STATIONS], 1)[0]
+    """The advance ratio, and azimuths (deg), radii (r/R) and angles of attack (deg, a row for each
+    azimuth) of blade 1 over one revolution."""
+    names = ["advanceRatio"] + [f"station[{k}].radius" for k in STATIONS]
+    mu, *radii = revolution(rotor, names, 1)[0]
     names = ["azimuth"] + [f"station[{k}].angleOfAttack" for k in STATIONS]
-    turn = rotor.turn(names, DISC_POINTS)
-    # The azimuth grows without end.
-    azimuths = np.degrees(turn[:, 0]) % 360.0
+    points = revolution(rotor, names, DISC_POINTS)
+    # The azimuth grows from revolution to revolution.
+    azimuths = np.degrees(points[:, 0]) % 360.0
     order = np.argsort(azimuths)
-    return mu, azimuths[order], np.array(radii), np.degrees(turn[order, 1:])
+    return mu, azimuths[order], np.array(radii), np.degrees(points[order, 1:])
 
 
 def plot_sweep(rows, file):
     """Controls, loads and flapping against advance ratio, a line for each inflow model."""
-    # Columns of the table with colour and factor, and a text and its place where there are several.
+    # Column of the table, colour, factor, and the label and its position where there are several.
     panels = {
         "controls, deg": [
             ("collective", "black", 1.0, ("collective", 0.01, 8.3)),
@@ -245,13 +208,13 @@ def plot_sweep(rows, file):
     figure.legend(
         lines, MODELS, loc="outside upper center", ncols=3, frameon=False, title="Inflow model"
     )
-    figure.savefig(file, dpi=130)
-    plt.close(figure)
+    save_plot(figure, file)
 
 
 def plot_disc(mu, azimuths, radii, alpha, file):
-    """The angle of attack over the disc from above; `mu` is the flow along the disc over the tip speed."""
-    # The turn is closed by its first azimuth, and angles go on below -180 deg, without a jump.
+    """Angle of attack over the disc from above; `mu` is the edgewise flow over the tip speed."""
+    # The first azimuth closes the revolution. Angles beyond 90 deg are continued below -180 deg,
+    # so that contours do not cross a jump.
     psi = np.radians(np.append(azimuths, azimuths[0] + 360.0))[:, None]
     alpha = np.vstack([alpha, alpha[:1]])
     alpha = np.where(alpha > 90.0, alpha - 360.0, alpha)
@@ -292,53 +255,36 @@ def plot_disc(mu, azimuths, radii, alpha, file):
     axis.set_ylim(-1.22, 1.2)
     axis.set_aspect("equal")
     axis.axis("off")
-    figure.savefig(file, dpi=130)
-    plt.close(figure)
-
-
-def write(rows, file):
-    with file.open("w", newline="", encoding="utf-8") as out:
-        writer = csv.DictWriter(out, fieldnames=list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)
+    save_plot(figure, file)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
-    parser.add_argument("--out", type=Path, default=Path("."), help="folder for tables and plots")
-    arguments = parser.parse_args()
-    if not arguments.fmu.is_file():
-        sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
-    arguments.out.mkdir(parents=True, exist_ok=True)
-
+    arguments = command_line(__doc__, out="folder for tables and plots").parse_args()
     rows = []
     print("inflow                mu  collective   tilt  H-force   power  coning     a1     b1")
     print("                               deg     deg        N       W     deg    deg    deg")
-    with tempfile.TemporaryDirectory() as folder:
-        unzipped = extract(str(arguments.fmu), unzipdir=folder)
-        description = read_model_description(unzipped)
+    with unpacked(arguments.fmu) as folder:
         for model, (_, _, settling) in MODELS.items():
-            rotor = Rotor(unzipped, description, model)
-            for row in fly(Flight(rotor, settling), model):
-                rows.append(row)
-                print(
-                    f"{model:17s} {row['mu']:6.3f} {row['collective']:11.2f} {row['tilt']:6.2f}"
-                    f" {row['H']:8.2f} {row['power']:7.1f} {row['coning']:7.2f}"
-                    f" {row['a1']:6.2f} {row['b1']:6.2f}",
-                    flush=True,
-                )
-            if model == DISC_MODEL:
-                picture = disc(rotor)
-            rotor.close()
-    write(rows, arguments.out / "forward-flight.csv")
+            with Rotor(folder, PARAMETERS | {"models.inflow": model}) as rotor:
+                rotor.set({"rpm": RPM})
+                for row in fly(Flight(rotor, settling), model):
+                    rows.append(row)
+                    print(
+                        f"{model:17s} {row['mu']:6.3f} {row['collective']:11.2f} {row['tilt']:6.2f}"
+                        f" {row['H']:8.2f} {row['power']:7.1f} {row['coning']:7.2f}"
+                        f" {row['a1']:6.2f} {row['b1']:6.2f}",
+                        flush=True,
+                    )
+                if model == DISC_MODEL:
+                    picture = disc(rotor)
+    write_table(rows, arguments.out / "forward-flight.csv")
     mu, azimuths, radii, alpha = picture
     points = [
         {"azimuth": psi, "radius": r, "angle_of_attack": alpha[i, k]}
         for i, psi in enumerate(azimuths)
         for k, r in enumerate(radii)
     ]
-    write(points, arguments.out / "angle-of-attack.csv")
+    write_table(points, arguments.out / "angle-of-attack.csv")
     plot_sweep(rows, arguments.out / "forward-flight.png")
     plot_disc(mu, azimuths, radii, alpha, arguments.out / "angle-of-attack.png")
     for name in ("forward-flight", "angle-of-attack"):

@@ -1,33 +1,29 @@
-"""Trims a hovering rotor by Newton's method and makes a linear model of it, with the FMU's exact derivatives.
+"""Trims a hovering rotor by Newton's method and linearises it, with the FMU's exact derivatives.
 
-The rotor has flapping blades on hinges beside the shaft and dynamic inflow, and hovers in a wind from ahead and from
-the side. Collective, shaft tilts and cyclic pitch are found with which it carries the weight straight up, without
-moments at the hub, when blade 1 is over the tail, where the FMU starts (the means over a turn differ by some 0.03 %
-of the weight, as the loads pulsate a little). Both the Jacobian of the trim (in Initialization Mode, where the states move with the inputs) and
-the matrices of the linear model (in Continuous-Time Mode, where they are held) are fmi2GetDirectionalDerivative's.
+The rotor has flapping blades on offset hinges and dynamic inflow, and hovers in a wind from ahead
+and from the side. The trim finds the collective, the two shaft tilts and the cyclic pitch at which
+the rotor carries the weight straight up without moments at the hub. It holds at the azimuth at
+which the FMU starts, with blade 1 over the tail; the loads pulsate, and their averages over one
+revolution differ from it by some 0.03 % of the weight.
+
+Both the Jacobian of the trim (in Initialization Mode, where the states move with the inputs) and
+the matrices of the linear model (in Continuous-Time Mode, where the states are held) come from
+fmi2GetDirectionalDerivative.
 
     python hover_trim.py --fmu HelicopterRotor.fmu --out FOLDER
 
 prints the trim, step by step, and the eigenvalues, and writes into FOLDER
 
-    hover-trim.npz          the trim and the matrices A, B, C, D with the names of their rows and columns
+    hover-trim.npz          the trim and the matrices A, B, C, D with the names of rows and columns
     step-response.csv, .png the linear model beside the FMU after a step of the collective
 """
 
-import argparse
 import math
-import sys
-import tempfile
-from ctypes import c_double
-from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
-from fmpy import extract, read_model_description
-from fmpy.fmi2 import FMU2Model, FMU2Slave
+
+from rotor import Rotor, unpacked
+from script import command_line, plt, save_plot
 
 # The FMU's default rotor at sea level.
 RADIUS = 0.762  # m
@@ -41,7 +37,7 @@ PARAMETERS = {
     "models.inflow": "pittPetersDynamic",
     "flapping.enabled": True,
     "flapping.hingeOffset": 0.05,
-    # A Lock number rho a c R^4/I of 8.
+    # From a Lock number rho a c R^4/I of 8.
     "flapping.inertia": DENSITY * 2.0 * math.pi * CHORD * RADIUS**4 / 8.0,
 }
 WIND = {"wind[1]": -4.0, "wind[2]": 2.0}  # m/s
@@ -62,84 +58,36 @@ ROUGH = {
 }  # rad
 TOLERANCE = 1e-6  # of the weight, and of the weight times the radius
 
-INPUTS = ["collective", "cyclicLongitudinal", "cyclicLateral", "velocity[1]", "velocity[2]", "velocity[3]"]
+INPUTS = [
+    "collective",
+    "cyclicLongitudinal",
+    "cyclicLateral",
+    "velocity[1]",
+    "velocity[2]",
+    "velocity[3]",
+]
 OUTPUTS = ["force[1]", "force[2]", "force[3]", "hubMoment[1]", "hubMoment[2]", "coning"]
 INFLOW = [f"state.inflow[{i}]" for i in (1, 2, 3)]
-FLAPPING = [f"state.{kind}[{i}]" for kind in ("flapAngle", "flapRate") for i in range(1, BLADES + 1)]
-MULTIBLADE = ["b0", "b1c", "b1s", "bd"]  # coning, to the rear, to the advancing side, differential
-AZIMUTHS = 12  # over which the linear model is a mean, from blade to blade
+FLAPPING = [
+    f"state.{kind}[{i}]" for kind in ("flapAngle", "flapRate") for i in range(1, BLADES + 1)
+]
+# Coning, flapping to the rear and to the advancing side, differential flapping.
+MULTIBLADE = ["b0", "b1c", "b1s", "bd"]
+AZIMUTHS = 12  # between two blade passages, over which the linear model is averaged
 
 STEP = math.radians(0.5)  # of the collective
 STEP_TIME, STOP_TIME, INTERVAL = 0.05, 0.35, 0.001  # s
 
 
-class Rotor:
-    """An instance of the FMU, left in Initialization Mode; FMU2Model is Model Exchange, FMU2Slave Co-Simulation."""
-
-    def __init__(self, unzipped, description, parameters, interface=FMU2Model):
-        self.description = description
-        self.variables = {v.name: v for v in description.modelVariables}
-        self.fmu = interface(
-            guid=description.guid,
-            unzipDirectory=unzipped,
-            modelIdentifier=description.modelExchange.modelIdentifier,
-            instanceName="rotor",
-        )
-        self.fmu.instantiate()
-        for name, value in parameters.items():
-            variable = self.variables[name]
-            if variable.type == "Enumeration":
-                items = variable.declaredType.items
-                number = next(int(item.value) for item in items if item.name == value)
-                self.fmu.setInteger([variable.valueReference], [number])
-            else:
-                getattr(self.fmu, f"set{variable.type}")([variable.valueReference], [value])
-        self.fmu.setupExperiment(startTime=0.0)
-        self.fmu.enterInitializationMode()
-
-    def references(self, names):
-        return [self.variables[name].valueReference for name in names]
-
-    def set(self, values):
-        self.fmu.setReal(self.references(values), list(values.values()))
-
-    def get(self, names):
-        return np.array(self.fmu.getReal(self.references(names)))
-
-    def jacobian(self, unknowns, knowns):
-        """d unknowns/d knowns, column by column."""
-        rows = self.references(unknowns)
-        columns = [self.fmu.getDirectionalDerivative(rows, [known], [1.0]) for known in self.references(knowns)]
-        return np.array(columns).T
-
-    def start(self):
-        self.fmu.exitInitializationMode()
-        self.fmu.newDiscreteStates()
-        self.fmu.enterContinuousTimeMode()
-
-    def set_states(self, values):
-        """The named continuous states; all others as they are."""
-        count = self.description.numberOfContinuousStates
-        vector = (c_double * count)()
-        self.fmu.getContinuousStates(vector, count)
-        order = [unknown.variable.derivative.name for unknown in self.description.derivatives]
-        for name, value in values.items():
-            vector[order.index(name)] = value
-        self.fmu.setContinuousStates(vector, count)
-
-    def close(self):
-        self.fmu.terminate()
-        self.fmu.freeInstance()
-
-
 def trim(rotor, wanted, guess):
-    """The inputs named in `guess` with which the outputs are as `wanted`, and the residual of each step."""
+    """The inputs named in `guess` at which the outputs are as `wanted`, and the residuals before
+    each step and after the last."""
     controls = np.array(list(guess.values()))
     scale = np.array([WEIGHT * RADIUS if "oment" in name else WEIGHT for name in wanted])
     residuals = []
     while True:
         rotor.set(dict(zip(guess, controls)))
-        excess = rotor.get(wanted) - list(wanted.values())
+        excess = np.subtract(rotor.get(wanted), list(wanted.values()))
         residuals.append(float(np.abs(excess / scale).max()))
         if residuals[-1] < TOLERANCE:
             return dict(zip(guess, controls.tolist())), residuals
@@ -149,8 +97,11 @@ def trim(rotor, wanted, guess):
 
 
 def multiblade(azimuth):
-    """T with (inflow, flap angles, flap rates) = T y, and its rate: y are the inflow and the rotor's coning, cyclic and
-    differential flapping with their rates in axes that stand still (Johnson 1980, Helicopter Theory, ch. 8-2)."""
+    """The transformation T with (inflow, flap angles, flap rates) = T y, and its rate of change.
+
+    y is the inflow, and coning, cyclic and differential flapping with their rates in non-rotating
+    axes (multiblade coordinates; Johnson 1980, Helicopter Theory, ch. 8-2).
+    """
     psi = azimuth + 2.0 * math.pi / BLADES * np.arange(BLADES)
     one, zero = np.ones(BLADES), np.zeros(BLADES)
     c = np.array([one, np.cos(psi), np.sin(psi), (-1.0) ** np.arange(BLADES)]).T
@@ -165,8 +116,10 @@ def multiblade(azimuth):
 
 
 def linear_model(rotor):
-    """A, B, C, D of a started rotor with flapping blades, in multiblade coordinates, the mean over a passage from blade
-    to blade: in the wind the matrices change a little as the blades turn."""
+    """A, B, C, D of a started rotor with flapping blades, in multiblade coordinates.
+
+    They are averages over one blade passage, because in the wind they change with the azimuth.
+    """
     states = INFLOW + FLAPPING
     rates = [f"der({name})" for name in states]
     y = np.linalg.solve(multiblade(0.0)[0], rotor.get(states))
@@ -183,7 +136,8 @@ def linear_model(rotor):
 
 
 def linear_response(a, b, c, d, times):
-    """Changes of the outputs after the step of the collective at STEP_TIME: y(t) = (exp(A t) - 1) A^-1 b."""
+    """Changes of the outputs after the step of the collective at STEP_TIME, by
+    y(t) = (exp(A t) - 1) A^-1 b."""
     values, vectors = np.linalg.eig(a)
     modal = np.linalg.solve(vectors, b[:, 0] * STEP)
     since = np.clip(times - STEP_TIME, 0.0, None)[:, None]
@@ -191,37 +145,37 @@ def linear_response(a, b, c, d, times):
     return y @ c.T + np.where(since > 0.0, d[:, 0] * STEP, 0.0)
 
 
-def fly(unzipped, description, inputs, step):
-    """Times and outputs (rows) of the FMU itself, in Co-Simulation, with a step of the collective at STEP_TIME."""
-    rotor = Rotor(unzipped, description, PARAMETERS, FMU2Slave)
-    rotor.set(inputs)
-    rotor.fmu.exitInitializationMode()
-    rows = [rotor.get(OUTPUTS)]
+def fly(fmu, inputs, step):
+    """Times and outputs (rows) of the FMU in Co-Simulation, with a step of the collective at
+    STEP_TIME."""
     times = np.arange(round(STOP_TIME / INTERVAL) + 1) * INTERVAL
-    for time in times[:-1]:
-        if abs(time - STEP_TIME) < 0.5 * INTERVAL:
-            rotor.set({"collective": inputs["collective"] + step})
-        rotor.fmu.doStep(currentCommunicationPoint=time, communicationStepSize=INTERVAL)
-        rows.append(rotor.get(OUTPUTS))
-    rotor.close()
+    with Rotor(fmu, PARAMETERS) as rotor:
+        rotor.set(inputs)
+        rows = [rotor.get(OUTPUTS)]
+        for time in times[:-1]:
+            if abs(time - STEP_TIME) < 0.5 * INTERVAL:
+                rotor.set({"collective": inputs["collective"] + step})
+            rotor.step(INTERVAL)
+            rows.append(rotor.get(OUTPUTS))
     return times, np.array(rows)
 
 
-def hover_in_still_air(unzipped, description):
-    """Eigenvalues of the inflow over rigid blades with a lift slope of 2 pi, those of theory, and the Newton steps."""
+def hover_in_still_air(fmu):
+    """Eigenvalues of the inflow with rigid blades and a lift slope of 2 pi, by the linear model and
+    by theory, and the residuals of the trim."""
     parameters = {
         "models.inflow": "pittPetersDynamic",
         "models.lift": "twoPi",
         "models.tipLoss": "none",
         "models.compressibility": "none",
     }
-    rotor = Rotor(unzipped, description, parameters)
-    _, residuals = trim(rotor, {"force[3]": WEIGHT}, {"collective": ROUGH["collective"]})
-    rotor.start()
-    a = rotor.jacobian([f"der({name})" for name in INFLOW], INFLOW)
-    (v0,) = rotor.get(["inducedVelocity"])
-    rotor.close()
-    # Apparent mass against the wake, 2 v^2, and the lift of the blades, with small angles (Pitt & Peters 1981).
+    with Rotor(fmu, parameters, "ModelExchange") as rotor:
+        _, residuals = trim(rotor, {"force[3]": WEIGHT}, {"collective": ROUGH["collective"]})
+        rotor.start()
+        a = rotor.jacobian([f"der({name})" for name in INFLOW], INFLOW)
+        v0 = rotor["inducedVelocity"]
+    # Apparent mass against momentum theory, 2 v^2, and the lift of the blades, for small angles
+    # (Pitt & Peters 1981).
     blades = 2.0 * math.pi * BLADES * CHORD / (math.pi * RADIUS) * SPEED * RADIUS
     mean = -(4.0 * v0 + blades * (1.0 - CUTOUT**2) / 4.0) / (RADIUS * 8.0 / (3.0 * math.pi))
     slope = -(v0 + blades * (1.0 - CUTOUT**4) / 16.0) / (RADIUS * 16.0 / (45.0 * math.pi))
@@ -240,10 +194,12 @@ def plot(times, flown, linear, file):
         axis.set_ylabel(label)
         axis.grid(True, color="0.85")
     axes[0].legend()
-    axes[0].set_title(f"Hover in a wind: collective raised by {math.degrees(STEP):g} deg at {1e3 * STEP_TIME:g} ms")
+    axes[0].set_title(
+        f"Hover in a wind: collective raised by {math.degrees(STEP):g} deg"
+        f" at {1e3 * STEP_TIME:g} ms"
+    )
     axes[1].set_xlabel("time, ms")
-    figure.savefig(file, dpi=130)
-    plt.close(figure)
+    save_plot(figure, file)
 
 
 def show(title, residuals):
@@ -252,45 +208,40 @@ def show(title, residuals):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
-    parser.add_argument("--out", type=Path, default=Path("."), help="folder for the model, the table and the plot")
-    arguments = parser.parse_args()
-    if not arguments.fmu.is_file():
-        sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
+    help_text = "folder for the model, the table and the plot"
+    arguments = command_line(__doc__, out=help_text).parse_args()
     arguments.out.mkdir(parents=True, exist_ok=True)
 
-    with tempfile.TemporaryDirectory() as folder:
-        unzipped = extract(str(arguments.fmu), unzipdir=folder)
-        description = read_model_description(unzipped)
-
-        rotor = Rotor(unzipped, description, PARAMETERS)
-        rotor.set(WIND)
-        controls, residuals = trim(rotor, TRIMMED, ROUGH)
-        show("Trim in the wind", residuals)
-        for name, value in controls.items():
-            print(f"  {name:18s} {math.degrees(value):8.4f} deg")
-        rotor.start()
-        a, b, c, d = linear_model(rotor)
-        rotor.close()
-        print("Eigenvalues of the linear model, 1/s, and their frequencies per turn")
+    with unpacked(arguments.fmu) as fmu:
+        with Rotor(fmu, PARAMETERS, "ModelExchange") as rotor:
+            rotor.set(WIND)
+            controls, residuals = trim(rotor, TRIMMED, ROUGH)
+            show("Trim in the wind", residuals)
+            for name, value in controls.items():
+                print(f"  {name:18s} {math.degrees(value):8.4f} deg")
+            rotor.start()
+            a, b, c, d = linear_model(rotor)
+        print("Eigenvalues of the linear model, 1/s, and their frequencies per revolution")
         for value in sorted(np.linalg.eigvals(a), key=lambda v: (v.real, v.imag)):
             if value.imag >= 0.0:
-                print(f"  eigenvalue {value.real:9.2f} +- {value.imag:7.2f} i   {abs(value) / SPEED:.3f}")
+                frequency = abs(value) / SPEED
+                print(f"  eigenvalue {value.real:9.2f} +- {value.imag:7.2f} i   {frequency:.3f}")
 
-        still, theory, still_residuals = hover_in_still_air(unzipped, description)
+        still, theory, still_residuals = hover_in_still_air(fmu)
         show("Rigid blades in still air", still_residuals)
         print("Eigenvalues of their inflow, 1/s: mean, slope fore and aft, slope to the side")
         print("  linear model " + " ".join(f"{value:9.3f}" for value in still))
         print("  theory       " + " ".join(f"{value:9.3f}" for value in theory))
 
         inputs = WIND | controls
-        times, flown = fly(unzipped, description, inputs, STEP)
-        _, held = fly(unzipped, description, inputs, 0.0)
+        times, flown = fly(fmu, inputs, STEP)
+        _, held = fly(fmu, inputs, 0.0)
 
-    # The linear model adds to the mean of the trim; the FMU's loads pulsate about it, from blade to blade.
+    # The linear model gives changes from the mean of the trimmed loads, which pulsate with each
+    # blade passage.
     linear = held.mean(axis=0) + linear_response(a, b, c, d, times)
-    print(f"Mean loads of the trim: {', '.join(f'{value:.4f}' for value in held.mean(axis=0)[:5])} N, N.m")
+    loads = ", ".join(f"{value:.4f}" for value in held.mean(axis=0)[:5])
+    print(f"Mean loads of the trim: {loads} N, N.m")
     np.savez(
         arguments.out / "hover-trim.npz",
         **dict(A=a, B=b, C=c, D=d, inputs=INPUTS, outputs=OUTPUTS),
@@ -303,10 +254,14 @@ def main():
         np.column_stack([times, flown, held, linear]),
         delimiter=",",
         comments="",
-        header=",".join(["time", *(f"{kind}:{name}" for kind in ("step", "held", "linear") for name in OUTPUTS)]),
+        header=",".join(
+            ["time", *(f"{kind}:{name}" for kind in ("step", "held", "linear") for name in OUTPUTS)]
+        ),
     )
     plot(times, flown, linear, arguments.out / "step-response.png")
-    print(f"Written: {arguments.out / 'hover-trim'}.npz, {arguments.out / 'step-response'}.csv, .png")
+    print(
+        f"Written: {arguments.out / 'hover-trim'}.npz, {arguments.out / 'step-response'}.csv, .png"
+    )
 
 
 if __name__ == "__main__":

@@ -2,70 +2,49 @@
 
 Knight, M. & Hefner, R. A. (1937), "Static Thrust Analysis of the Lifting Airscrew", NACA TN 626:
 rotors of three and four untwisted NACA 0015 blades, thrust and torque against pitch. The section
-data are the authors' own, measured at the blade tip's Reynolds number; the rotors' files name
-naca0015-knight-hefner-reynolds.polar, which takes their drag inwards. No parameter is fitted.
+data are the authors' own, measured at the Reynolds number of the blade tip; the rotor definitions
+name naca0015-knight-hefner-reynolds.polar, which adapts the drag to the Reynolds numbers inboard.
+No parameter is fitted.
 
     python knight_hefner.py --fmu HelicopterRotor.fmu --out FOLDER
 
 prints the table, and writes knight-hefner.csv and knight-hefner.png into FOLDER.
 """
 
-import argparse
-import csv
 import math
-import sys
-import tempfile
-from pathlib import Path
 
-import matplotlib
+import measured
+from rotor import Rotor
+from script import command_line, plt, save_plot, write_table
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
-from fmpy import extract, read_model_description, simulate_fmu
+MEASURED = "knight-hefner-1937-tn626-hover.csv"
 
-MEASURED = Path(__file__).parent / "data" / "knight-hefner-1937-tn626-hover.csv"
-
-# The report gives 960 rpm and a tip Reynolds number of 242,000, which is that of air at 30 degrees
-# Celsius and sea-level pressure (the FMU's tipReynolds comes out at 243,000).
-USER_DEFINED_AIR = 2  # the choice `userDefined` of the enumeration air.atmosphere
-CONDITIONS = {"air.atmosphere": USER_DEFINED_AIR, "air.density": 1.164, "air.temperature": 303.15}
+# The report gives 960 rpm and a tip Reynolds number of 242,000: air of 30 degrees Celsius at
+# sea-level pressure, with which the output tipReynolds is 243,000.
+AIR = {"air.atmosphere": "userDefined", "air.density": 1.164, "air.temperature": 303.15}
 RPM = 960.0
 
-COMPARED_FROM = 4.0  # deg; below, measured thrust is too small for differences in per cent
+COMPARED_FROM = 4.0  # deg; below it the measured thrust is too small for differences in per cent
 
 
 def measured_rows():
     """Measured points as dictionaries: blades, theta (deg), CT, CQ (US convention)."""
-    with MEASURED.open(encoding="utf-8") as file:
-        rows = csv.DictReader(line for line in file if not line.startswith("#"))
-        return [
-            {
-                "blades": int(row["blades"]),
-                "theta": float(row["theta_deg"]),
-                "CT": float(row["CT_rotor"]),
-                "CQ": float(row["CQ_rotor"]),
-            }
-            for row in rows
-        ]
+    return [
+        {
+            "blades": int(row["blades"]),
+            "theta": row["theta_deg"],
+            "CT": row["CT_rotor"],
+            "CQ": row["CQ_rotor"],
+        }
+        for row in measured.rows(MEASURED)
+    ]
 
 
-def fly(unzipped, description, blades, pitch):
-    """CT and CQ of the rotor with `blades` blades at a pitch in degrees."""
-    result = simulate_fmu(
-        unzipped,
-        model_description=description,
-        fmi_type="CoSimulation",
-        stop_time=0.1,
-        step_size=0.1,
-        start_values={
-            "geometry.file": f"knight-hefner-{blades}.toml",
-            "rpm": RPM,
-            "collective": math.radians(pitch),
-            **CONDITIONS,
-        },
-        output=["thrustCoefficient", "torqueCoefficient"],
-    )
-    return result["thrustCoefficient"][-1], result["torqueCoefficient"][-1]
+def fly(rotor, blades, pitch):
+    """CT and CQ of the rotor with `blades` blades at a pitch in degrees, in the steady start."""
+    rotor.restart({"geometry.file": f"knight-hefner-{blades}.toml", **AIR})
+    rotor.set({"rpm": RPM, "collective": math.radians(pitch)})
+    return rotor.get(["thrustCoefficient", "torqueCoefficient"])
 
 
 def percent(computed, measured):
@@ -73,14 +52,14 @@ def percent(computed, measured):
     return 100.0 * (computed / measured - 1.0) if measured else float("nan")
 
 
-def table(fly_at):
-    """The measured rows with what the FMU computes added; prints as it goes."""
+def table(rotor):
+    """The measured rows with the computed values added; prints each row."""
     rows = measured_rows()
     print("Knight & Hefner (1937), hover, computed with the authors' own section data")
     print(" blades  pitch |   CT FMU  CT measured   diff |     CQ FMU  CQ measured   diff")
     print("           deg |                          % |                             %")
     for row in rows:
-        ct, cq = fly_at(row["blades"], row["theta"])
+        ct, cq = fly(rotor, row["blades"], row["theta"])
         row.update(CT_fmu=ct, CQ_fmu=cq)
         row.update(dCT=percent(ct, row["CT"]), dCQ=percent(cq, row["CQ"]))
         d_ct = f"{row['dCT']:+6.1f}" if row["CT"] else "     -"
@@ -102,19 +81,19 @@ def summary(rows):
     return result
 
 
-def plot(rows, fly_at, file):
+def plot(rows, rotor, file):
     """Measured points and computed lines: CT and CQ against pitch."""
     figure, axes = plt.subplots(1, 2, figsize=(10, 4.6), constrained_layout=True)
     styles = {3: ("o", "-", "white"), 4: ("s", "--", "black")}
     pitches = [0.5 * i for i in range(25)]
     for blades, (marker, line, fill) in styles.items():
-        computed = [fly_at(blades, pitch) for pitch in pitches]
-        measured = [row for row in rows if row["blades"] == blades]
+        computed = [fly(rotor, blades, pitch) for pitch in pitches]
+        own = [row for row in rows if row["blades"] == blades]
         for axis, name, values in zip(axes, ("CT", "CQ"), zip(*computed)):
             axis.plot(pitches, values, line, color="black", label=f"{blades} blades, computed")
             axis.plot(
-                [row["theta"] for row in measured],
-                [row[name] for row in measured],
+                [row["theta"] for row in own],
+                [row[name] for row in own],
                 marker,
                 color="black",
                 markerfacecolor=fill,
@@ -128,45 +107,28 @@ def plot(rows, fly_at, file):
         axis.ticklabel_format(axis="y", style="sci", scilimits=(0, 0), useMathText=True)
         axis.grid(True, color="0.85")
     axes[0].legend(frameon=False)
-    figure.suptitle("Hover: HelicopterRotor.fmu and the rotors of Knight & Hefner (1937), NACA TN 626")
-    figure.savefig(file, dpi=130)
-    plt.close(figure)
-
-
-def write_csv(rows, file):
-    """All rows, written to a temporary name first."""
-    temporary = file.with_suffix(".tmp")
-    with temporary.open("w", newline="", encoding="utf-8") as out:
-        writer = csv.DictWriter(out, fieldnames=list(rows[0]))
-        writer.writeheader()
-        writer.writerows(rows)
-    temporary.replace(file)
+    figure.suptitle(
+        "Hover: HelicopterRotor.fmu and the rotors of Knight & Hefner (1937), NACA TN 626"
+    )
+    save_plot(figure, file)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
-    parser.add_argument("--out", type=Path, default=Path("."), help="folder for table and plot")
-    arguments = parser.parse_args()
-    if not arguments.fmu.is_file():
-        sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
-    arguments.out.mkdir(parents=True, exist_ok=True)
-
-    with tempfile.TemporaryDirectory() as folder:
-        unzipped = extract(str(arguments.fmu), unzipdir=folder)
-        description = read_model_description(unzipped)
-
-        def fly_at(blades, pitch):
-            return fly(unzipped, description, blades, pitch)
-
-        rows = table(fly_at)
-        plot(rows, fly_at, arguments.out / "knight-hefner.png")
+    arguments = command_line(__doc__, out="folder for table and plot").parse_args()
+    table_file = arguments.out / "knight-hefner.csv"
+    plot_file = arguments.out / "knight-hefner.png"
+    with Rotor(arguments.fmu) as rotor:
+        rows = table(rotor)
+        plot(rows, rotor, plot_file)
     for name, (mean, worst) in summary(rows).items():
-        print(f"mean |{name}| {mean:.1f} %, worst {worst:.1f} % (pitch {COMPARED_FROM:g} deg and above)")
-    write_csv(rows, arguments.out / "knight-hefner.csv")
+        print(
+            f"mean |{name}| {mean:.1f} %, worst {worst:.1f} %"
+            f" (pitch {COMPARED_FROM:g} deg and above)"
+        )
+    write_table(rows, table_file)
     print(f"FMU:   {arguments.fmu}")
-    print(f"Table: {arguments.out / 'knight-hefner.csv'}")
-    print(f"Plot:  {arguments.out / 'knight-hefner.png'}")
+    print(f"Table: {table_file}")
+    print(f"Plot:  {plot_file}")
 
 
 if __name__ == "__main__":

@@ -1,31 +1,29 @@
-"""Shows how accurate the FMU's two interfaces are, and what decides it: the tolerance of the importer's solver in Model
-Exchange, numerics.azimuthStep in Co-Simulation.
+"""Shows how accurate the FMU's two interfaces are, and which setting decides.
 
-Three manoeuvres begin with a jump of an input: the collective in hover with dynamic inflow, the cyclic pitch in
-forward flight with flapping blades, and the torque that drives the rotor, which runs down. (A jump, since FMPy
-holds inputs that move within each output interval in Model Exchange, which would be an error of its own.) Each is flown by
-Co-Simulation with the shortest step there is, by Model Exchange with FMPy's CVode with relative tolerances from 1e-3
-to 1e-9, and by Co-Simulation with longer steps. Errors are the largest over all outputs and times, as a part of the
-largest magnitude of the output.
+In Model Exchange it is the tolerance of the importer's solver, in Co-Simulation
+numerics.azimuthStep.
+
+Each of three manoeuvres begins with a jump of an input: the collective in hover with dynamic
+inflow, the cyclic pitch in forward flight with flapping blades, and the driving torque, after which
+the rotor runs down. (Inputs jump, because in Model Exchange FMPy holds inputs that move within each
+output interval, which would be an error of its own.)
+
+Each manoeuvre is flown by Co-Simulation with the shortest step, by Model Exchange with FMPy's CVode
+at relative tolerances from 1e-3 to 1e-9, and by Co-Simulation with longer steps. Errors are the
+largest over all outputs and times, relative to the largest magnitude of the output.
 
     python solver_accuracy.py --fmu HelicopterRotor.fmu --out FOLDER
 
-prints the errors and writes them into FOLDER as solver-accuracy.csv and solver-accuracy.png.
+prints the errors and writes solver-accuracy.csv and solver-accuracy.png into FOLDER.
 """
 
-import argparse
-import csv
 import math
-import sys
-import tempfile
-from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt
 import numpy as np
-from fmpy import extract, read_model_description, simulate_fmu
+from fmpy import read_model_description, simulate_fmu
+
+from rotor import as_numbers, unpacked
+from script import command_line, plt, save_plot, write_table
 
 FINEST = 0.001  # rad, numerics.azimuthStep of the run that the others are compared with
 TOLERANCES = [10.0**-k for k in range(3, 10)]
@@ -34,8 +32,9 @@ DEFAULT_STEP = 3.0  # deg
 JUMP_TIME = 0.0525  # s; between two output points, so that none has two values
 INTERVAL = 0.005  # s
 
-# Duration (s), parameters and inputs, the input that jumps from its first to its second value, outputs, marker. FMPy bounds
-# CVode's steps by a 50th of the duration, which in a short flight would hide what the tolerance does.
+# Duration (s), parameters and inputs, the input that jumps from its first to its second value,
+# outputs, marker. FMPy limits CVode's steps to a 50th of the duration; in a shorter flight this
+# limit would hide the effect of the tolerance.
 MANOEUVRES = {
     "hover": (
         2.0,
@@ -68,22 +67,16 @@ MANOEUVRES = {
 
 
 class Manoeuvre:
-    """A manoeuvre that FMPy flies through either interface."""
+    """One manoeuvre, flown by FMPy through either interface."""
 
     def __init__(self, unzipped, description, name):
         self.duration, parameters, jump, self.outputs, _ = MANOEUVRES[name]
         self.unzipped, self.description = unzipped, description
-        variables = {v.name: v for v in description.modelVariables}
-
-        def number(name, value):
-            """FMPy takes enumerations as numbers."""
-            if variables[name].type != "Enumeration":
-                return value
-            return next(item.value for item in variables[name].declaredType.items if item.name == value)
-
-        self.start = {name: number(name, value) for name, value in parameters.items()}
-        # All inputs, as FMPy warns of those that are missing; two rows at one time make a jump.
-        inputs = {v.name: (v.start, v.start) for v in description.modelVariables if v.causality == "input"}
+        self.start = as_numbers(description, parameters)
+        # All inputs are given, because FMPy warns of missing ones. Two rows at one time are a jump.
+        inputs = {
+            v.name: (v.start, v.start) for v in description.modelVariables if v.causality == "input"
+        }
         inputs |= {name: (value, value) for name, value in parameters.items() if name in inputs}
         inputs |= jump
         columns = {name: [before, before, after, after] for name, (before, after) in inputs.items()}
@@ -106,7 +99,7 @@ class Manoeuvre:
             record_events=False,
             **options,
         )
-        # Co-Simulation has a row at the jump as well.
+        # Co-Simulation also has a row at the jump.
         points = result["time"] / INTERVAL
         rows = np.abs(points - np.round(points)) < 1e-6
         return np.array([result[name][rows] for name in self.outputs]).T
@@ -115,13 +108,15 @@ class Manoeuvre:
         return self.fly("CoSimulation", {"numerics.azimuthStep": azimuth_step})
 
     def model_exchange(self, tolerance):
-        """With the start of the finest run: flapping that repeats itself is found with steps of numerics.azimuthStep."""
+        """Starts as the finest run does: the periodic start is found in steps of
+        numerics.azimuthStep."""
         start = {"numerics.azimuthStep": FINEST}
         return self.fly("ModelExchange", start, relative_tolerance=tolerance)
 
 
 def errors(manoeuvre):
-    """Pairs of tolerance and error of Model Exchange, and of azimuth step (deg) and error of Co-Simulation."""
+    """Pairs of tolerance and error in Model Exchange, and of azimuth step (deg) and error in
+    Co-Simulation."""
     exact = manoeuvre.co_simulation(FINEST)
     largest = np.abs(exact).max(axis=0)
 
@@ -135,12 +130,14 @@ def errors(manoeuvre):
 
 
 def order(pairs):
-    """Slope of the line through the pairs in logarithms (least squares)."""
+    """Slope of the least-squares line through the logarithms of the pairs."""
     return float(np.polyfit(*np.log(np.array(pairs)).T, 1)[0])
 
 
 def plot(found, file):
-    figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 4.6), constrained_layout=True, sharey=True)
+    figure, (left, right) = plt.subplots(
+        1, 2, figsize=(9.5, 4.6), constrained_layout=True, sharey=True
+    )
     for name, (exchange, simulation) in found.items():
         for axis, pairs in ((left, exchange), (right, simulation)):
             style = {"marker": MANOEUVRES[name][-1], "color": "black", "markerfacecolor": "white"}
@@ -160,33 +157,25 @@ def plot(found, file):
     for axis in (left, right):
         axis.grid(True, color="0.88")
         axis.legend(frameon=False)
-    figure.savefig(file, dpi=130)
-    plt.close(figure)
+    save_plot(figure, file)
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
-    parser.add_argument("--out", type=Path, default=Path("."), help="folder for the table and the plot")
-    arguments = parser.parse_args()
-    if not arguments.fmu.is_file():
-        sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
-    arguments.out.mkdir(parents=True, exist_ok=True)
-
+    arguments = command_line(__doc__, out="folder for the table and the plot").parse_args()
     found, rows = {}, []
-    with tempfile.TemporaryDirectory() as folder:
-        unzipped = extract(str(arguments.fmu), unzipdir=folder)
-        description = read_model_description(unzipped)
+    with unpacked(arguments.fmu) as folder:
+        description = read_model_description(folder)
         for name in MANOEUVRES:
-            found[name] = errors(Manoeuvre(unzipped, description, name))
+            found[name] = errors(Manoeuvre(folder, description, name))
             kinds = (("ModelExchange", "relative tolerance"), ("CoSimulation", "azimuth step, deg"))
-            for (interface, what), pairs in zip(kinds, found[name]):
+            for (interface, setting), pairs in zip(kinds, found[name]):
                 print(f"{name}, {interface}: order {order(pairs):.2f}", flush=True)
-                print(f"  {what:20s}" + "".join(f"{setting:9.2g}" for setting, _ in pairs))
+                print(f"  {setting:20s}" + "".join(f"{value:9.2g}" for value, _ in pairs))
                 print(f"  {'largest error':20s}" + "".join(f"{error:9.1e}" for _, error in pairs))
-                rows += [(name.replace(" ", "-"), interface, setting, error) for setting, error in pairs]
-    with (arguments.out / "solver-accuracy.csv").open("w", newline="", encoding="utf-8") as file:
-        csv.writer(file).writerows([("manoeuvre", "interface", "setting", "error"), *rows])
+                for value, error in pairs:
+                    row = {"manoeuvre": name.replace(" ", "-"), "interface": interface}
+                    rows.append(row | {"setting": value, "error": error})
+    write_table(rows, arguments.out / "solver-accuracy.csv")
     plot(found, arguments.out / "solver-accuracy.png")
     print(f"Table and plot: {arguments.out / 'solver-accuracy'}.csv, .png")
 

@@ -1,8 +1,8 @@
-"""The reference experiments: what is set, what is fed in, what is recorded.
+"""The reference experiments: parameters, inputs and recorded outputs.
 
-Units are those of the FMU; angles are written in degrees here with `deg`. Inputs are continuous and piecewise
-linear: (time, value) at their corners, constant before the first and after the last. Inputs that are not
-named keep their start values.
+Values are in the units of the FMU; `deg` converts angles from degrees. Inputs are continuous and
+piecewise linear: (time, value) at their corners, constant before the first and after the last.
+Inputs that are not named keep their start values.
 """
 
 from dataclasses import dataclass, field
@@ -14,7 +14,8 @@ class Experiment:
     name: str
     description: str
     stop: float  # s
-    # Communication step, s; it divides the times of all corners, so that no corner falls within a step.
+    # Communication step, s. The times of all corners are multiples of it, so that no corner lies
+    # within a step.
     step: float
     interval: float  # s between recorded rows, a multiple of the step
     inputs: dict
@@ -24,7 +25,8 @@ class Experiment:
 
 HOVER = Experiment(
     name="hover",
-    description="Hover: the collective is raised from 4 to 10 deg and lowered to 8 deg; all parameters at their defaults",
+    description="Hover: the collective is raised from 4 to 10 deg and lowered to 8 deg; "
+    "all parameters at their defaults",
     stop=1.0,
     step=0.004,
     interval=0.04,
@@ -41,7 +43,8 @@ HOVER = Experiment(
 
 FORWARD = Experiment(
     name="forward",
-    description="Entry into forward flight: four flapping blades in a dynamic wake, speed, shaft tilt and cyclic pitch vary",
+    description="Entry into forward flight: four flapping blades in a dynamic wake, "
+    "speed, shaft tilt and cyclic pitch vary",
     stop=1.0,
     step=0.004,
     interval=0.04,
@@ -73,7 +76,8 @@ FORWARD = Experiment(
 
 DESCENT = Experiment(
     name="descent",
-    description="From climb into vertical descent through the vortex ring into the turbulent wake; the rotor of NACA TN 2474",
+    description="From climb into vertical descent through the vortex ring into the turbulent wake; "
+    "the rotor of NACA TN 2474",
     stop=2.8,
     step=0.008,
     interval=0.08,
@@ -98,7 +102,8 @@ DESCENT = Experiment(
 
 AUTOROTATION = Experiment(
     name="autorotation",
-    description="Engine failure in hover and vertical autorotation: a torque turns the rotor, and goes to zero",
+    description="Engine failure in hover and vertical autorotation: "
+    "a torque turns the rotor, and goes to zero",
     stop=4.0,
     step=0.0125,
     interval=0.1,
@@ -110,7 +115,7 @@ AUTOROTATION = Experiment(
     inputs={
         "collective": [(0.4, deg(8.0)), (2.6, deg(3.0))],
         "velocity[3]": [(0.2, 0.0), (3.6, -9.0)],
-        # At first nearly what the rotor absorbs in hover.
+        # Begins near the torque that the rotor absorbs in hover.
         "driveTorque": [(0.1, 4.23), (0.5, 0.0)],
     },
     outputs=(

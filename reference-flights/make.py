@@ -1,30 +1,33 @@
-"""Makes the reference files: flies each experiment to convergence and writes what an importer needs to repeat it.
+"""Makes the reference files: flies each experiment to convergence and writes it for importers.
 
-Run by `cargo run --release -- reference`.
+`cargo run --release -- reference` runs it.
 
     python make.py --fmu HelicopterRotor.fmu --out FOLDER
 
-writes below FOLDER, which is the source tree or has its shape,
+writes into FOLDER, the source tree or an empty folder,
 
-    modelDescription/extra/org.fmi-standard.fmi-ls-ref/   what travels in the FMU
-    reference-flights/cross-check/                        the first experiment in the form of the FMI cross-check
+    modelDescription/extra/org.fmi-standard.fmi-ls-ref/   the files that travel in the FMU
+    reference-flights/cross-check/                        the first one for the FMI cross-check
 """
 
-import argparse
 import sys
 import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import numpy as np
 
+# The rotor is that of the examples.
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "fmu-examples"))
+
 from experiments import EXPERIMENTS, HOVER
 from fly import converged, inputs_at
+from script import command_line
 
 LAYERED_STANDARD = Path("modelDescription/extra/org.fmi-standard.fmi-ls-ref")
 CROSS_CHECK = Path("reference-flights/cross-check")
 
-# Of the largest magnitude of each output. Importers are compared at TOLERANCE; halving the converged run's steps may change
-# nothing that would be seen beside it.
+# Both are relative to the largest magnitude of each output. Importers are compared at TOLERANCE;
+# halving the steps of the converged run must change far less.
 TOLERANCE = 0.01
 CONVERGED = TOLERANCE / 200.0
 PARTS = 10
@@ -51,24 +54,28 @@ def reference(fmu, experiment):
     print(f"{experiment.name}: {len(fine)} rows, converged to {change[worst]:.0e} ({name})")
     if not change[worst] <= CONVERGED:
         sys.exit(
-            f"{experiment.name}: {name} changes by {change[worst]:.1e} of its largest magnitude when the steps are"
-            f" halved, more than {CONVERGED:.0e}; raise PARTS in reference-flights/make.py"
+            f"{experiment.name}: {name} changes by {change[worst]:.1e} of its largest magnitude"
+            f" when the steps are halved, more than {CONVERGED:.0e};"
+            " raise PARTS in reference-flights/make.py"
         )
-    # Seven digits of the largest magnitude; what is smaller is rounding.
+    # Seven digits of the largest magnitude; smaller digits are rounding.
     digits = 6 - np.floor(np.log10(largest)).astype(int)
     return np.array([[round(value, int(d)) for value, d in zip(row, digits)] for row in fine]) + 0.0
 
 
 def csv(names, rows):
-    """As the cross-check's rules want it: names in quotes, a comma between fields, time first."""
+    """By the rules of the cross-check: names in quotes, a comma between fields, time first."""
     lines = [",".join(f'"{name}"' for name in ("time", *names))]
     lines += [",".join(f"{value:.9g}" for value in row) for row in rows]
     return "\n".join(lines) + "\n"
 
 
 def stimuli(experiment):
-    """A row at each communication point, so that reading between the rows or holding them is the same."""
-    times = [round(i * experiment.step, 9) for i in range(round(experiment.stop / experiment.step) + 1)]
+    """A row at each communication point, so that interpolating between rows and holding them give
+    the same inputs."""
+    times = [
+        round(i * experiment.step, 9) for i in range(round(experiment.stop / experiment.step) + 1)
+    ]
     rows = [[time, *inputs_at(experiment, time).values()] for time in times]
     return csv(experiment.inputs, rows)
 
@@ -79,7 +86,7 @@ def xml(root):
 
 
 def parameter_set(experiment):
-    """SSV 1.0, without units: numbers are in the units of the FMU's variables."""
+    """SSV 1.0 without units: values are in the units of the FMU's variables."""
     ET.register_namespace("ssv", SSV)
     root = ET.Element(f"{{{SSV}}}ParameterSet", version="1.0", name=experiment.name)
     parameters = ET.SubElement(root, f"{{{SSV}}}Parameters")
@@ -96,10 +103,10 @@ def parameter_set(experiment):
 
 
 def experiments_file():
-    """Of the Modelica Association's harmonized specification of experiments.
+    """The experiments in the Modelica Association's harmonized specification.
 
-    The attribute `tolerance` is left out: beside startTime, stopTime and stepSize it reads as a solver's, and what importers
-    are compared with is not one.
+    The attribute `tolerance` is left out: beside startTime, stopTime and stepSize it reads as the
+    tolerance of a solver, which the one of the comparison is not.
     """
     root = ET.Element(
         "Experiments",
@@ -146,28 +153,37 @@ def manifest():
         name = experiment.name
         if experiment.parameters:
             related(
-                "application/x-ssp-parameter-set", f"{name}.ssv", "parameter", f"Parameters of the experiment {name}"
+                "application/x-ssp-parameter-set",
+                f"{name}.ssv",
+                "parameter",
+                f"Parameters of the experiment {name}",
             )
         related("text/csv", f"{name}_in.csv", "other", f"Inputs of the experiment {name}")
-        related("text/csv", f"{name}_ref.csv", "result", f"Expected outputs of the experiment {name}")
-    related("text/html", "../../documentation/fmi-ls-ref.html", "document", "What the experiments are and how to compare")
+        related(
+            "text/csv", f"{name}_ref.csv", "result", f"Expected outputs of the experiment {name}"
+        )
+    related(
+        "text/html",
+        "../../documentation/fmi-ls-ref.html",
+        "document",
+        "What the experiments are and how to compare",
+    )
     return xml(root)
 
 
 def options(experiment):
     return (
-        f"StartTime, 0.0\nStopTime, {experiment.stop}\nStepSize, {experiment.step}\nRelTol, {TOLERANCE}\n"
+        f"StartTime, 0.0\nStopTime, {experiment.stop}\nStepSize, {experiment.step}\n"
+        f"RelTol, {TOLERANCE}\n"
         f"OutputIntervalLength, {experiment.interval}\n"
     )
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
-    parser.add_argument("--out", type=Path, required=True, help="the source tree")
+    parser = command_line(__doc__, out="the source tree", out_required=True)
     arguments = parser.parse_args()
 
-    # All are flown before the first file is written.
+    # All experiments are flown before the first file is written.
     references = {e.name: csv(e.outputs, reference(arguments.fmu, e)) for e in EXPERIMENTS}
     inside = arguments.out / LAYERED_STANDARD
     write(inside / "fmi-ls-manifest.xml", manifest())
@@ -177,7 +193,7 @@ def main():
             write(inside / f"{experiment.name}.ssv", parameter_set(experiment))
         write(inside / f"{experiment.name}_in.csv", stimuli(experiment))
         write(inside / f"{experiment.name}_ref.csv", references[experiment.name])
-    # The cross-check has no place for parameters: only the experiment with defaults can be in its form.
+    # The cross-check has no parameters, so only the experiment with defaults can be in its form.
     beside = arguments.out / CROSS_CHECK
     write(beside / "HelicopterRotor_in.csv", stimuli(HOVER))
     write(beside / "HelicopterRotor_ref.csv", references[HOVER.name])

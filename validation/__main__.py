@@ -2,33 +2,32 @@
 
     python validation --fmu HelicopterRotor.fmu --out FOLDER
 
-writes into FOLDER validation.md, its figures in validation/, summary.md (the README's part), errors.csv and
-element-times.csv. While it works it prints lines `progress DONE TOTAL NAME`.
+writes validation.md, its figures in validation/, summary.md (the part in the README), errors.csv
+and element-times.csv into FOLDER. While it flies it prints lines `progress DONE TOTAL NAME`.
 """
 
-import argparse
 import csv
 import dataclasses
 import sys
 from pathlib import Path
 
+# The rotor and the measured data are those of the examples.
+sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "fmu-examples"))
+
 import flights
 import page
 import summary
 from cases import CASES, elements
-from rotor import FlightError
+from rotor import RotorError
+from script import command_line
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--fmu", type=Path, required=True, help="the HelicopterRotor.fmu to fly")
-    parser.add_argument("--out", type=Path, required=True, help="folder to write into")
+    parser = command_line(__doc__, out="folder to write into", out_required=True)
     arguments = parser.parse_args()
-    if not arguments.fmu.is_file():
-        sys.exit(f"{arguments.fmu} does not exist; make it with `cargo run --release -- package`")
     try:
         flown = flights.fly_all(arguments.fmu)
-    except FlightError as error:
+    except RotorError as error:
         sys.exit(str(error))
     write(flown, arguments.out)
 

@@ -1,6 +1,7 @@
-"""How the figures look, and how they are written: the same bytes for the same numbers.
+"""How the figures look and how they are written: equal numbers give equal bytes.
 
-Measured values are markers, computed ones lines; both are told apart by shape and dash, not by colour alone.
+Measured values are markers, computed ones lines. Markers and dashes, not only colours, tell them
+apart.
 """
 
 import matplotlib
@@ -53,18 +54,18 @@ def figure(rows, columns, width=8.2, height=3.6, **options):
 
 
 def coefficient_axis(axis):
-    """Powers of ten of small coefficients in the axis' corner."""
+    """Small coefficients, with their power of ten at the end of the axis."""
     axis.ticklabel_format(axis="y", style="sci", scilimits=(0, 0), useMathText=True)
 
 
 def from_zero(axis):
-    """The vertical axis from 0 to a little above the highest line."""
+    """The vertical axis from 0 to slightly above the highest line."""
     highest = max(max(line.get_ydata()) for line in axis.get_lines())
     axis.set_ylim(0.0, 1.08 * highest)
 
 
 def legend_below(figure, axis, columns):
-    """One legend for all panels, under them."""
+    """One legend for all panels, below them."""
     handles, labels = axis.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside lower center", ncols=columns, frameon=False)
 

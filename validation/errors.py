@@ -9,8 +9,8 @@ import numpy as np
 class Errors:
     """Errors of one quantity with one model over the points of a case.
 
-    `unit` is "%" (of the measured value, point by point), "% of ..." or "deg". `scatter` is that of the measurement in
-    the same unit, None where it is not known.
+    `unit` is "%" (of each measured value), "% of ..." or "deg". `scatter` is that of the
+    measurement in the same unit, None where it is not known.
     """
 
     case: str
@@ -26,13 +26,13 @@ class Errors:
 
 
 def percent(case, quantity, model, computed, measured, scatter=None):
-    """Errors in % of the measured values, none of which may be 0."""
+    """Errors in % of the measured values, which must not be 0."""
     differences = 100.0 * (np.asarray(computed) / np.asarray(measured) - 1.0)
     return _of(case, quantity, model, "%", differences, scatter)
 
 
 def percent_of(reference, case, quantity, model, computed, measured, of, scatter=None):
-    """Errors in % of other values than the measured, for what goes through 0; `of` names them."""
+    """Errors in % of a reference value, for quantities that pass through 0; `of` names it."""
     differences = 100.0 * (np.asarray(computed) - np.asarray(measured)) / np.asarray(reference)
     return _of(case, quantity, model, f"% of {of}", differences, scatter)
 
@@ -44,7 +44,7 @@ def degrees(case, quantity, model, computed, measured, scatter=None):
 
 def _of(case, quantity, model, unit, differences, scatter):
     if differences.size == 0 or not np.all(np.isfinite(differences)):
-        raise ValueError(f"{case}, {quantity}, {model}: no errors to take a mean of")
+        raise ValueError(f"{case}, {quantity}, {model}: there are no errors, or one is not finite")
     return Errors(
         case,
         quantity,
@@ -64,8 +64,9 @@ def rms(values):
 
 
 def spread(runs):
-    """How far a single measurement lies from the mean of many, by differences between runs: their RMS over the
-    root of 2. `runs` are lists of (x, value); other runs are interpolated linearly at each x."""
+    """Deviations of a single measurement from the mean of many, from the differences between runs:
+    their RMS is that of the differences over the square root of 2. `runs` are lists of (x, value);
+    the other runs are interpolated linearly at each x."""
     differences = []
     for run in runs:
         for other in runs:

@@ -1,4 +1,4 @@
-"""The errors at a glance: of each case those that a user asks for first."""
+"""The errors at a glance: for each case those that a user asks for first."""
 
 import drawing
 import page
@@ -8,7 +8,7 @@ HOVER_3 = "Caradonna & Tung 1981, hover"
 DESCENT = "Castles & Gray 1951, descent"
 FORWARD = "PCA-2 autogiro 1934, forward flight"
 MEASURED = "the law of descent is fitted to these runs"
-# Case, quantity and model as in the errors; what the table calls the models; what the figure calls the row.
+# Case, quantity and model as in the errors, the models in the table, the label in the figure.
 CHOSEN = [
     (HOVER_1, "CT", "table", "defaults", "Knight & Hefner, hover: CT"),
     (HOVER_1, "CQ", "table", "defaults", "Knight & Hefner, hover: CQ"),
@@ -16,8 +16,20 @@ CHOSEN = [
     (HOVER_2, "CT", "both speeds", "defaults", "Castles & Gray, hover: CT"),
     (HOVER_2, "CQ rise", "both speeds", "defaults", "Castles & Gray, hover: CQ rise"),
     (HOVER_3, "CT", "prandtlGlauert", "defaults", "Caradonna & Tung, hover: CT"),
-    (DESCENT, "collective", "measured (fitted), annulus", f"defaults; {MEASURED}", "descent: collective"),
-    (DESCENT, "collective", "measured (fitted), uniform", f"`uniform`; {MEASURED}", "the same, uniform"),
+    (
+        DESCENT,
+        "collective",
+        "measured (fitted), annulus",
+        f"defaults; {MEASURED}",
+        "descent: collective",
+    ),
+    (
+        DESCENT,
+        "collective",
+        "measured (fitted), uniform",
+        f"`uniform`; {MEASURED}",
+        "the same, uniform",
+    ),
     (
         DESCENT,
         "inflow, in deg of collective",
@@ -25,8 +37,20 @@ CHOSEN = [
         "law `measured`, fitted to the other half of the runs",
         "the same, law fitted to the other runs",
     ),
-    (DESCENT, "collective", "johnson, uniform", "`uniform`, descent `johnson`", "the same, johnson"),
-    (DESCENT, "collective", "momentum, uniform", "`uniform`, descent `momentum`", "the same, momentum"),
+    (
+        DESCENT,
+        "collective",
+        "johnson, uniform",
+        "`uniform`, descent `johnson`",
+        "the same, johnson",
+    ),
+    (
+        DESCENT,
+        "collective",
+        "momentum, uniform",
+        "`uniform`, descent `momentum`",
+        "the same, momentum",
+    ),
     (FORWARD, "coning", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: coning"),
     (
         FORWARD,
@@ -35,7 +59,13 @@ CHOSEN = [
         "`pittPetersDynamic`",
         "autogiro: longitudinal flapping",
     ),
-    (FORWARD, "lateral flapping", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: lateral flapping"),
+    (
+        FORWARD,
+        "lateral flapping",
+        "pittPetersDynamic",
+        "`pittPetersDynamic`",
+        "autogiro: lateral flapping",
+    ),
     (FORWARD, "lateral flapping", "annulus", "`annulus`", "the same, annulus"),
     (FORWARD, "shaft angle", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: shaft angle"),
     (FORWARD, "CT", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: CT"),
@@ -45,22 +75,21 @@ CHOSEN = [
 
 def chosen(rows):
     by = {(e.case, e.quantity, e.model): e for e in rows}
-    return [(by[case, quantity, model], name, short) for case, quantity, model, name, short in CHOSEN]
+    return [
+        (by[case, quantity, model], name, short) for case, quantity, model, name, short in CHOSEN
+    ]
 
 
 def table(rows):
-    cells = []
-    for e, name, _ in chosen(rows):
-        said = lambda value, signed=False, unit=e.unit: f"{page.number(value, unit, signed)} {unit}"
-        scatter = said(e.scatter) if e.scatter is not None else "-"
-        means = said(e.mean, True), said(e.mean_absolute), said(e.rms), said(e.worst, True)
-        cells.append([e.case, e.quantity, name, e.points, *means, scatter])
-    header = ["case", "quantity", "models", "points", "mean", "mean of magnitudes", "RMS", "worst", "scatter"]
-    return page.table(header, cells, 3)
+    cells = [
+        [e.case, e.quantity, name, *page.statistics(e, with_unit=True)]
+        for e, name, _ in chosen(rows)
+    ]
+    return page.table(["case", "quantity", "models", *page.STATISTICS], cells, 3)
 
 
 def draw(rows, file):
-    """RMS errors as bars, the mean as a mark on them, and beside them the scatter of the measurement."""
+    """RMS errors as bars; the mean error and the scatter of the measurement are marked on them."""
     units = {"%": "% of the measured value", "deg": "deg"}
     heights = [sum(e.unit == unit for e, _, _ in chosen(rows)) for unit in units]
     figure, panels = drawing.figure(2, 1, height=5.6, height_ratios=heights)
@@ -69,9 +98,20 @@ def draw(rows, file):
         for i, (e, _) in enumerate(own):
             once = i == 0
             axis.barh(
-                i, e.rms, color="0.82", edgecolor="black", linewidth=0.6, label="RMS error" if once else None
+                i,
+                e.rms,
+                color="0.82",
+                edgecolor="black",
+                linewidth=0.6,
+                label="RMS error" if once else None,
             )
-            axis.plot([abs(e.mean)], [i], "kD", markersize=4, label="mean error, magnitude" if once else None)
+            axis.plot(
+                [abs(e.mean)],
+                [i],
+                "kD",
+                markersize=4,
+                label="mean error, magnitude" if once else None,
+            )
             if e.scatter is not None:
                 style = {"color": "#b03a2e", "linewidth": 2.0}
                 axis.plot(

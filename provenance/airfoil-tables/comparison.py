@@ -32,7 +32,7 @@ DRAWN = {
 
 
 def xfoil_polar(n_crit, x_trip):
-    """alpha (deg), cl, cd by XFOIL with 200 panels at the points of ALPHA that converge."""
+    """alpha (deg), cl and cd by XFOIL with 200 panels, at the points of ALPHA that converge."""
     if shutil.which("xfoil") is None:
         raise tables.TableError(
             "The comparison needs the program xfoil, and it is not on the PATH."
@@ -50,7 +50,7 @@ def xfoil_polar(n_crit, x_trip):
         data = np.loadtxt(path, skiprows=12, usecols=(0, 1, 2)) if path.exists() else np.empty(0)
     if data.size == 0:
         raise tables.TableError(
-            "XFOIL gave no result; README.md tells what Debian's build of it needs."
+            "XFOIL gave no result; README.md says what Debian's build of it needs."
         )
     return data.T
 
@@ -64,7 +64,7 @@ def candidate_polar(method, n_crit, x_trip):
 
 
 def slope_range(method, n_crit, x_trip):
-    """Least and largest lift slope (1/rad) over all Reynolds numbers of the tables."""
+    """Smallest and largest lift slope (1/rad) over all Reynolds numbers of the tables."""
     if method == "XFOIL":
         return "-"
     slopes = [
@@ -82,7 +82,7 @@ def label(method, n_crit, x_trip):
 
 
 def compare():
-    """Compute every candidate, print its distances and draw the figure."""
+    """Compute each candidate, print its distances and draw the figure."""
     print(
         "| candidate | points | mean dcl | max dcl | mean dcd | max dcd | mean dcl to 8 deg "
         "| mean dcd to 8 deg | cd at 0 | slope, 1/rad | slope, Re 2e4 to 1e7 |"
@@ -105,7 +105,7 @@ def compare():
 
 
 def draw(polars):
-    """Lift and drag against alpha; measured points, the fit, and the NeuralFoil candidates."""
+    """Lift and drag against alpha: measured points, the fit and the NeuralFoil candidates."""
     position, alpha, cl, cd = tables.measured_points()
     knot_cl, knot_cd = tables.fit_measured()[:2]
     figure, axes = plt.subplots(1, 2, figsize=(11, 5), layout="constrained")

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Make lift slopes, stall angles and drag polynomials (Modelica CombiTable) from a polar.
 
-README.md describes format and method. Only a symmetric section has such laws: the half of the polar
-from 0 deg upwards is read.
+README.md describes format and method. Such laws hold only for symmetric sections, so the polar is
+read from 0 deg upwards.
 """
 
 import argparse
@@ -17,7 +17,7 @@ FOLDER = Path(__file__).resolve().parents[2] / "modelDescription" / "resources" 
 # Output file and the polar from which it is made.
 FILES = {"naca0015.txt": "naca0015.polar"}
 
-# Beyond the polar's Reynolds numbers its nearest block holds.
+# Beyond the Reynolds numbers of the polar its nearest block holds.
 LOWEST_REYNOLDS = 2e3
 HIGHEST_REYNOLDS = 1e9
 
@@ -29,7 +29,7 @@ SYMMETRY = 1e-9
 
 
 class SlopeError(Exception):
-    """A polar that has no such laws; the message says why."""
+    """A polar that such laws do not describe; the message says why."""
 
 
 def read_polar(path):
@@ -73,7 +73,7 @@ def laws(reynolds, rows):
     coefficients = np.linalg.lstsq(powers / drag[:, None], np.ones(len(drag)), rcond=None)[0]
     error = np.abs(powers @ coefficients / drag - 1).max()
     if error > LARGEST_DRAG_ERROR:
-        raise SlopeError(f"{where}: the drag polynomial is {error:.0%} off.")
+        raise SlopeError(f"{where}: the drag polynomial has an error of {error:.0%}.")
     lines = np.where(alpha <= EDGE_DEG, slope_a * np.radians(alpha), 0.0)
     lines[attached] = at_edge + slope_c * above
     lift_error = np.abs(lines - cl)[: stall + 1].max()

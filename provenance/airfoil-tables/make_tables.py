@@ -2,8 +2,8 @@
 """Make the airfoil tables (.polar files); README.md describes format and methods.
 
 Angles are in degrees, coefficients are per unit span and chord, Reynolds numbers refer to the chord
-(for the circle: to the diameter). A section is handled for 0 <= alpha <= 180 deg and mirrored on
-output: cl odd, cd even. A section that is not symmetric is handled twice, upright and upside down.
+(for the circle: to the diameter). A section is computed for 0 <= alpha <= 180 deg and mirrored on
+output: cl odd, cd even. A section that is not symmetric is computed twice, upright and upside down.
 """
 
 import argparse
@@ -59,7 +59,7 @@ Drag is held at or above the drag at zero lift. No data stand behind these range
 
 
 class TableError(Exception):
-    """A table that cannot be made; the message says why."""
+    """The reason why a table cannot be made."""
 
 
 @dataclass
@@ -70,8 +70,8 @@ class Block:
     alpha: np.ndarray
     cl: np.ndarray
     cd: np.ndarray
-    match: float | None = None  # deg; beyond it the post-stall method holds
-    upside_down: "Block | None" = None  # gives the negative angles; if absent, mirrored
+    match: float | None = None  # deg, where the post-stall method begins
+    upside_down: "Block | None" = None  # for negative angles; None: mirrored
 
 
 def measured_points():
@@ -120,9 +120,9 @@ def viterna_cd(alpha, match, cd_match):
 def extend(reynolds, alpha, cl, cd):
     """Carry cl, cd given from 0 to the match angle alpha[-1] (deg) on to 180 deg.
 
-    Beyond 90 deg as in NREL's AirfoilPrep and CCBlade: drag mirrored about 90 deg, lift mirrored
-    and times -0.7 as far as 180 - match, from there linear to zero at 180. Drag nowhere falls below
-    the drag at zero lift.
+    Beyond 90 deg as in NREL's AirfoilPrep and CCBlade: drag is mirrored about 90 deg, lift is
+    mirrored and multiplied by -0.7 up to 180 - match, and goes linearly to zero from there to 180.
+    Drag is at least the drag at zero lift.
     """
     match = alpha[-1]
     fine = np.arange(np.floor(match) + 1, 30)
@@ -193,7 +193,7 @@ def goettingen_block(reynolds):
 
 
 def distance(alpha, cl, cd):
-    """Distance of a candidate from the fit to the measurements at the alpha (deg) it is given at.
+    """Distance of a candidate, given at alpha (deg), from the fit to the measurements.
 
     Returns a dict of mean and largest |dcl| and |dcd|.
     """
@@ -285,7 +285,7 @@ Match angle: {KNOTS[-1]:.0f} deg, the last knot.
 
 
 def scaled_block(reynolds):
-    """The measured polar with its drag taken to another Reynolds number by computed ratios."""
+    """The measured polar with its drag scaled to another Reynolds number by computed ratios."""
     cl, cd = fit_measured()[:2]
     _, there, confidence = neuralfoil_polar(KNOTS, reynolds, N_CRIT)
     _, here, _ = neuralfoil_polar(KNOTS, MEASURED_REYNOLDS, N_CRIT)
@@ -294,7 +294,7 @@ def scaled_block(reynolds):
             f"At Re {reynolds:.0f} NeuralFoil's confidence falls below {LOWEST_CONFIDENCE} "
             f"between 0 and {KNOTS[-1]:.0f} deg."
         )
-    # What drag there is above that at the peak of the lift is that of pressure in stall, and stays.
+    # Drag in excess of that at the peak of lift is pressure drag in stall, and is not scaled.
     peak = int(np.argmax(cl))
     ratio = (there / here)[np.minimum(np.arange(len(KNOTS)), peak)]
     return extend(reynolds, KNOTS, cl, cd + np.minimum(cd, cd[peak]) * (ratio - 1))
@@ -433,7 +433,7 @@ For rotors whose blades hardly stall; the Reynolds number is without meaning.
 """
     alpha = np.arange(0.0, 181.0, 1.0)
     cl = 0.5 * WHEATLEY_SLOPE * np.sin(2.0 * np.radians(alpha))
-    cl[-1] = 0.0  # but for rounding
+    cl[-1] = 0.0  # without rounding
     blocks = [Block(2e6, alpha, cl, np.full(len(alpha), WHEATLEY_DRAG))]
     return render("linear section of NACA Report 487", header, blocks)
 
@@ -466,12 +466,12 @@ FILES = {
 
 
 def progress(text):
-    """Tell on the error stream how far the work is."""
+    """Show progress on the error stream."""
     print(text, file=sys.stderr, flush=True)
 
 
 def write_files():
-    """Write every table under a temporary name and rename it."""
+    """Write each table under a temporary name and rename it."""
     OUTPUT.mkdir(parents=True, exist_ok=True)
     for name, make in FILES.items():
         progress(name)
@@ -482,7 +482,7 @@ def write_files():
 
 
 def check_files():
-    """Make every table anew and compare it with the file in the repository."""
+    """Make each table anew and compare it with the file in the repository."""
     stale = []
     for name, make in FILES.items():
         progress(name)
@@ -490,9 +490,7 @@ def check_files():
         if not path.exists() or path.read_bytes() != make().encode("utf-8"):
             stale.append(name)
     if stale:
-        sys.exit(
-            f"These tables are missing or differ from what the script makes: {', '.join(stale)}."
-        )
+        sys.exit(f"These tables are missing, or the script makes others: {', '.join(stale)}.")
     progress("All tables agree.")
 
 

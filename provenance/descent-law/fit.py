@@ -1,13 +1,14 @@
 """Fits the law of mass flow in descent to Castles & Gray (1951, NACA TN 2474, Table I).
 
-The law is g(k) = (v_h/v)^2 at k = V_c/v: a piecewise cubic (Hermite, slopes by Fritsch & Carlson) through knots
-at fixed k, momentum theory's |1 + k| from the first knot down and from 0 up. The values at the knots are the
-fit: least soft-L1 error of v/v_h, each run divided by its own hover value, because what a rotor needs more than
-v_h in hover (tip loss, non-uniform inflow) is in the rotor model already.
+The law is g(k) = (v_h/v)^2 at k = V_c/v: a piecewise cubic (Hermite, slopes by Fritsch & Carlson)
+through knots at fixed k. Below the first knot and above 0 it is |1 + k|, as in momentum theory. The
+values at the knots are fitted: least soft-L1 error of v/v_h, each run divided by its own hover
+value, because the rotor model already has what makes this value larger than 1 (tip loss,
+non-uniform inflow).
 
-    python fit.py            prints the table for src/rotor/inflow/descent/measured.rs, the errors of this and
-                             of published laws, and how a law fitted to half of the runs does on the other
-                             half; draws descent-law.png
+    python fit.py            prints the table for crates/rotor/src/inflow/descent/measured.rs, the
+                             errors of this law and of published laws, and how a law fitted to half
+                             of the runs does on the other half; draws descent-law.png
 """
 
 import csv
@@ -29,7 +30,7 @@ START = np.array([1.0, 0.62, 0.44, 0.34, 0.23, 0.18, 0.30, 0.55])
 
 
 def measured():
-    """Runs by number: arrays of V_d/v_h and of v/v_h over its value in hover."""
+    """Runs by number: arrays of V_d/v_h, and of v/v_h divided by its value in hover."""
     lines = [l for l in DATA.read_text().splitlines() if not l.startswith("#")]
     runs = {}
     for row in csv.DictReader(lines):
@@ -74,7 +75,9 @@ def fit(runs):
         return errors(lambda d: induced(g, d), runs)
 
     bounds = (0.05 * np.ones(len(START)), 1.5 * np.ones(len(START)))
-    return least_squares(residual, START, loss="soft_l1", f_scale=0.1, bounds=bounds, diff_step=1e-4).x
+    return least_squares(
+        residual, START, loss="soft_l1", f_scale=0.1, bounds=bounds, diff_step=1e-4
+    ).x
 
 
 def momentum(descent):
@@ -132,7 +135,10 @@ def main():
     axes.plot(d, [induced(g, x) for x in d], "k-", lw=2.0, label="this law")
     axes.plot(d, [leishman(x) for x in d], "k--", lw=1.0, label="Leishman 2006")
     axes.plot(d, [momentum(x) for x in d], "k:", lw=1.2, label="momentum theory")
-    axes.set(xlabel="rate of descent $V_d/v_h$", ylabel="induced velocity $v/v_h$ over its value in hover")
+    axes.set(
+        xlabel="rate of descent $V_d/v_h$",
+        ylabel="induced velocity $v/v_h$ over its value in hover",
+    )
     axes.set(xlim=(0.0, 3.2), ylim=(0.0, 2.8))
     axes.legend(ncols=2, fontsize=7)
     axes.grid(alpha=0.3)

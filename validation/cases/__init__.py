@@ -1,9 +1,10 @@
 """The cases, one file each, in the order of the page.
 
 Each has
-    TASKS                        names of its parts, which are flown independently, in any process
-    fly(rotor, task, resources)  what a part found, as plain lists and numbers
-    report(flown, figures)       its texts and errors (page.Report) from {task: what it found}; draws its figures
+    TASKS                        names of its parts, each of which any process can fly
+    fly(rotor, task, resources)  the result of a part, as plain lists and numbers
+    report(flown, figures)       its texts and errors (page.Report) from {task: result}; draws its
+                                 figures
 """
 
 from . import (

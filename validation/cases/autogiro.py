@@ -1,7 +1,8 @@
 """Forward flight: the PCA-2 autogiro in flight (Wheatley 1934, NACA Report 487, figs. 6 to 8).
 
-Flown in autorotation: at the measured rotor speed, at the shaft angle at which the mean torque vanishes. Section data and
-tip loss are those of the report's own analysis, published before and not fitted; the rotor's file says what is assumed.
+It is flown in autorotation: at the measured rotor speed, at the shaft angle at which the mean
+torque vanishes. Section data and tip loss are those of the report's own analysis, published before
+and not fitted; the rotor definition says what is assumed.
 """
 
 import math
@@ -33,48 +34,51 @@ MODELS = [
     "pittPetersDynamic",
     "petersHe",
 ]
-# What the assumptions are worth: task, and what the page calls it.
+# Effect of the assumptions: task and its name on the page.
 OTHERS = {
     "tip loss": "pittPetersDynamic with Prandtl's tip loss",
     "section": "pittPetersDynamic with Goettingen 429 computed",
     "drag": "pittPetersDynamic with twice the section drag",
 }
-# Flown at the advance ratios at which the shaft angle was read, too.
+# Also flown at the advance ratios at which the shaft angle was read.
 ANGLED = ["uniform", "pittPetersDynamic", "petersHe", "drag"]
 DRAWN = ["uniform", "annulus", "coleman", "pittPetersDynamic", "petersHe"]
 NAMES = {"a0": "coning", "a1": "longitudinal flapping", "b1": "lateral flapping"}
-READING = 0.05  # deg, to which the flapping was read off the report's figure
-ANGLE_READING = 0.3  # deg, of the faired curve of the rotor's angle of attack
+READING = 0.05  # deg, reading accuracy of the flapping in the report's figure
+ANGLE_READING = 0.3  # deg, reading accuracy of the rotor's angle of attack, a faired curve
 
 RADIUS = 6.858
 DENSITY = 1.0823  # kg/m3, mean of the tests
-INERTIA = 452.8  # kg m2 of a blade
+INERTIA = 452.8  # kg m2, of one blade
 COLLECTIVE = 0.0497  # rad
-STEPS = 30  # of 3 deg, from blade to blade
+STEPS = 30  # of 3 deg each, one blade passage
 OUTPUTS = ("torque", "thrustCoefficient", "coning", "longitudinalFlapping", "lateralFlapping")
 SETTLING = 15.0  # s
-ENOUGH_THRUST = 0.005  # share of the wanted thrust by which it may be missed
-NO_TORQUE = 5.0  # N.m, a thousandth of what drives one side of the rotor and brakes the other
+ENOUGH_THRUST = 0.005  # tolerance of the thrust, relative
+# N.m, counts as zero: a thousandth of the torque that drives one part of the disc and brakes the
+# other.
+NO_TORQUE = 5.0
 
 
 def points(file, quantity):
-    """(mu, value) of a quantity."""
+    """Pairs (mu, value) of a quantity."""
     kind = "coefficient" if file == FLAPPING else "quantity"
     value = "value_deg" if file == FLAPPING else "value"
     return [(r["mu"], r[value]) for r in measured.rows(file) if r[kind] == quantity]
 
 
-RATIOS = [mu for mu, _ in points(FLAPPING, "a0")]  # those of a1 and b1 lie within 0.004 of them
+# The advance ratios of a1 and b1 differ from these by at most 0.004.
+RATIOS = [mu for mu, _ in points(FLAPPING, "a0")]
 
 
 ANGLE_RATIOS = [mu for mu, _ in points(SPEED, "alpha_deg")]
-# Without an engine, at the measured points of rotor speed.
+# Without an engine, at the advance ratios at which the rotor speed was measured.
 SPEEDS = [f"free at {mu}" for mu, _ in points(SPEED, "N_rpm")]
 TASKS = [*MODELS, *OTHERS, *SPEEDS]
 
 
 def at(quantity, mu):
-    """A quantity of the second file at an advance ratio, linear between its points."""
+    """A quantity of the file SPEED at an advance ratio, interpolated linearly."""
     return float(np.interp(mu, *zip(*points(SPEED, quantity))))
 
 
@@ -92,7 +96,9 @@ def parameters(task, resources, folder):
     if task == "section":
         text = (resources / "rotors" / "pca-2.toml").read_text(encoding="utf-8")
         file = folder / "pca-2-goettingen429.toml"
-        file.write_text(text.replace("wheatley-1934.polar", "goettingen429.polar"), encoding="utf-8")
+        file.write_text(
+            text.replace("wheatley-1934.polar", "goettingen429.polar"), encoding="utf-8"
+        )
         chosen["geometry.file"] = str(file)
     if task == "drag":
         chosen["geometry.file"] = str(twice_the_drag(resources, folder))
@@ -100,7 +106,7 @@ def parameters(task, resources, folder):
 
 
 def twice_the_drag(resources, folder):
-    """The rotor with twice the drag of the section, for the fittings and cables that it has not."""
+    """The rotor with twice the section drag, in place of the drag of fittings and cables."""
     section = (resources / "airfoils" / "wheatley-1934.polar").read_text(encoding="utf-8")
     polar, file = folder / "drag.polar", folder / "pca-2-drag.toml"
     polar.write_text(section.replace(" 0.01200", " 0.02400"), encoding="utf-8")
@@ -110,7 +116,7 @@ def twice_the_drag(resources, folder):
 
 
 def edgewise(mu, rpm):
-    """Speed along the disc, m/s."""
+    """Edgewise flow, m/s."""
     return mu * rpm * math.pi / 30.0 * RADIUS
 
 
@@ -127,7 +133,7 @@ def fly(rotor, task, resources):
 
 
 def sweep(rotor, chosen, ratios):
-    """Autorotations from the slowest up: the faster, the less the shaft leans back."""
+    """Autorotations, slowest first: the shaft leans back less the faster the rotor flies."""
     guess, found = 0.42, []
     for mu in ratios:
         found.append(autorotate(rotor, chosen, mu, guess))
@@ -136,16 +142,19 @@ def sweep(rotor, chosen, ratios):
 
 
 def mean_flight(rotor, chosen, mu, alpha):
-    """Means over a blade passage at a shaft angle; the air comes from below the disc."""
+    """Averages over one blade passage at a shaft angle; the air comes from below the disc."""
     rpm = at("N_rpm", mu)
     along = edgewise(mu, rpm)
-    rotor.start({**chosen, "rpm": rpm, "velocity[1]": along, "velocity[3]": -along * math.tan(alpha)})
+    rotor.begin(
+        {**chosen, "rpm": rpm, "velocity[1]": along, "velocity[3]": -along * math.tan(alpha)}
+    )
     step = 60.0 / rpm / 120.0
     return np.mean([rotor.fly(OUTPUTS, step) for _ in range(STEPS)], axis=0)
 
 
 def autorotate(rotor, chosen, mu, guess):
-    """The flight without mean torque. The more the shaft leans back, the more the air drives the rotor."""
+    """The flight at which the mean torque vanishes. The air drives the rotor more, the further the
+    shaft leans back."""
     flights = {}
 
     def torque(alpha):
@@ -162,12 +171,18 @@ def autorotate(rotor, chosen, mu, guess):
     if alpha not in flights:
         torque(alpha)
     _, thrust, *flapping = flights[alpha]
-    return {"angle": math.degrees(alpha), "CT": thrust, **dict(zip(NAMES, map(math.degrees, flapping)))}
+    return {
+        "angle": math.degrees(alpha),
+        "CT": thrust,
+        **dict(zip(NAMES, map(math.degrees, flapping))),
+    }
 
 
 def settle(rotor, chosen, mu, rpm):
-    """The speed, rev/min, at which the rotor turns without an engine, at the measured speed along the disc and with
-    the measured thrust, which the angle of the shaft is for."""
+    """The speed, rev/min, at which the rotor settles without an engine.
+
+    The edgewise flow is the measured one, and the shaft angle gives the measured thrust.
+    """
     wanted = at("CT", mu) * DENSITY * math.pi * (RADIUS**2 * rpm * math.pi / 30.0) ** 2
     along = edgewise(mu, rpm)
     free = {
@@ -180,7 +195,7 @@ def settle(rotor, chosen, mu, rpm):
     speeds = {}
 
     def surplus(alpha):
-        rotor.start({**free, "velocity[3]": -along * math.tan(alpha)})
+        rotor.begin({**free, "velocity[3]": -along * math.tan(alpha)})
         rotor.fly(("thrust",), SETTLING)
         last = [rotor.fly(("thrust", "rotorSpeed"), 0.02) for _ in range(20)]
         thrust, speeds[alpha] = np.mean(last, axis=0)
@@ -212,9 +227,13 @@ def report(flown, figures):
         values = [v for _, v in points(SPEED, "alpha_deg")]
         angles = [f["angle"] for f in own["angles"]]
         name = named[task]
-        found.errors.append(errors.degrees(CASE, "shaft angle", name, angles, values, ANGLE_READING))
+        found.errors.append(
+            errors.degrees(CASE, "shaft angle", name, angles, values, ANGLE_READING)
+        )
         thrust = [at("CT", mu) for mu in RATIOS]
-        found.errors.append(errors.percent(CASE, "CT", name, [f["CT"] for f in own["flights"]], thrust))
+        found.errors.append(
+            errors.percent(CASE, "CT", name, [f["CT"] for f in own["flights"]], thrust)
+        )
     speeds = points(SPEED, "N_rpm")
     turning = [flown[task]["rpm"] for task in SPEEDS]
     found.errors.append(
@@ -226,7 +245,10 @@ def report(flown, figures):
     found.texts = {
         "pca-2.errors": flapping_table(found.errors, named.values()),
         "pca-2.autorotation": page.error_table(
-            sorted((e for e in found.errors if e.quantity in later), key=lambda e: later.index(e.quantity))
+            sorted(
+                (e for e in found.errors if e.quantity in later),
+                key=lambda e: later.index(e.quantity),
+            )
         ),
         "pca-2.models": flown["pittPetersDynamic"]["models"],
     }
@@ -234,13 +256,17 @@ def report(flown, figures):
 
 
 def flapping_table(rows, names):
-    """RMS and mean errors of the three angles, a line for each model."""
+    """RMS, mean and worst errors of the three angles, a row for each model."""
     by = {(e.model, e.quantity): e for e in rows}
     cells = []
     for name in names:
         own = [by[name, quantity] for quantity in NAMES.values()]
         cells.append(
-            [f"`{name}`" if " " not in name else name.replace("pittPetersDynamic", "`pittPetersDynamic`")]
+            [
+                f"`{name}`"
+                if " " not in name
+                else name.replace("pittPetersDynamic", "`pittPetersDynamic`")
+            ]
         )
         cells[-1] += [page.number(e.rms, "deg") for e in own]
         cells[-1] += [page.number(e.mean, "deg", True) for e in own]
@@ -272,7 +298,9 @@ def draw_autorotation(flown, file):
     figure, axes = drawing.figure(1, 3, height=4.2)
     for i, task in enumerate(ANGLED):
         flights = flown[task]["flights"]
-        axes[0].plot(RATIOS, [f["angle"] for f in flights], **drawing.line(i), label=OTHERS.get(task, task))
+        axes[0].plot(
+            RATIOS, [f["angle"] for f in flights], **drawing.line(i), label=OTHERS.get(task, task)
+        )
         axes[1].plot(RATIOS, [f["CT"] for f in flights], **drawing.line(i))
     ratios = [mu for mu, _ in points(SPEED, "N_rpm")]
     axes[2].plot(ratios, [flown[task]["rpm"] for task in SPEEDS], **drawing.line(1))

@@ -1,8 +1,10 @@
-"""The thesis' study of axial flight (Lovaco 2017, figures 17 to 20): CT and CP from a descent at V_h to a climb at V_h,
-the disc by eq. (94) and blades with uniform inflow, and beside them the default of this project."""
+"""The thesis' study of axial flight (Lovaco 2017, figures 17 to 20).
+
+CT and CP from a descent at V_h to a climb at V_h: the disc by eq. (94), blades with uniform inflow,
+and the defaults of this project.
+"""
 
 import math
-from pathlib import Path
 
 import drawing
 import page
@@ -23,7 +25,11 @@ SETTINGS = {
 CASES = {
     "thesis, 15.3 deg": (15.3, rotors.THESIS_RADIUS, rotors.THESIS_RPM),
     "thesis, 16.9 deg": (16.9, rotors.THESIS_RADIUS, rotors.THESIS_RPM),
-    "Knight & Hefner, 4 blades, 8 deg": (8.0, rotors.KNIGHT_HEFNER_RADIUS, rotors.KNIGHT_HEFNER_RPM),
+    "Knight & Hefner, 4 blades, 8 deg": (
+        8.0,
+        rotors.KNIGHT_HEFNER_RADIUS,
+        rotors.KNIGHT_HEFNER_RPM,
+    ),
 }
 TASKS = [f"{case}; {name}" for case in CASES for name in SETTINGS]
 OUTPUTS = ("thrustCoefficient", "powerCoefficient")
@@ -33,17 +39,13 @@ def fly(rotor, task, resources):
     case, name = task.split("; ")
     pitch, radius, rpm = CASES[case]
     with rotors.own_folder() as folder:
-        own = (
-            rotors.THESIS
-            if case.startswith("thesis")
-            else rotors.knight_hefner_slopes(4, resources, Path(folder))
-        )
+        own = rotors.of_study(case, resources, folder)
         chosen = {**own, "collective": math.radians(pitch)}
-        # V_h is that of the disc in hover, the same for all lines of a rotor.
-        rotor.start({**chosen, **SETTINGS["disc"]})
+        # V_h is that of the disc in hover, for all lines of a rotor.
+        rotor.begin({**chosen, **SETTINGS["disc"]})
         hover = rotors.hover_speed(rotor.fly(OUTPUTS)[0], radius, rpm)
         chosen |= SETTINGS[name]
-        rotor.start(chosen)
+        rotor.begin(chosen)
         flights = [rotor.fly(OUTPUTS, **{"velocity[3]": ratio * hover}) for ratio in RATIOS]
         return {"flights": flights, "hover": hover, "models": rotor.models(chosen)}
 
@@ -70,13 +72,20 @@ def report(flown, figures):
 
 
 def draw(flown, file):
-    figure, axes = drawing.figure(2, len(CASES), height=6.2, sharex=True)
+    lines = [(f"; {name}", name, drawing.line(i)) for i, name in enumerate(SETTINGS)]
+    draw_climb(flown, RATIOS, lines, 6.2, file)
+
+
+def draw_climb(flown, ratios, lines, height, file):
+    """CT and CP against the rate of climb, a column for each case. `lines`: end of the part's name,
+    label and style."""
+    figure, axes = drawing.figure(2, len(CASES), height=height, sharex=True)
     for column, case in enumerate(CASES):
-        for place, label in enumerate(("thrust coefficient CT", "power coefficient CP")):
+        for place in (0, 1):
             axis = axes[place][column]
-            for i, name in enumerate(SETTINGS):
-                values = [f[place] for f in flown[f"{case}; {name}"]["flights"]]
-                axis.plot(RATIOS, values, **drawing.line(i), label=name)
+            for part, label, style in lines:
+                values = [f[place] for f in flown[case + part]["flights"]]
+                axis.plot(ratios, values, **style, label=label)
             drawing.coefficient_axis(axis)
             axis.set(xlim=(-1, 1))
             drawing.from_zero(axis)

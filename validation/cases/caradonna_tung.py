@@ -1,5 +1,7 @@
-"""Hover: the two short blades of Caradonna & Tung (1981, NASA TM-81232), thrust by tip Mach number and lift along
-the radius."""
+"""Hover: the two short blades of Caradonna & Tung (1981, NASA TM-81232).
+
+Thrust against tip Mach number, and lift along the radius.
+"""
 
 import math
 
@@ -18,14 +20,15 @@ RADIUS = 1.143
 RULES = ("none", "prandtlGlauert", "karmanTsien", "laitone")
 TASKS = list(RULES)
 PITCHES = (5, 8)
-MISPRINT = 2268.0  # rev/min: the CT of this point is a reading of a misprint in the report, and is only drawn
+# rev/min; the CT of this point is read from a misprint in the report: drawn, but not compared.
+MISPRINT = 2268.0
 MACHS = [0.40 + 0.02 * i for i in range(26)]
 RPM = 1250.0
 STATIONS = range(1, 21)
 
 
 def parameters(rule, pitch, rpm, mach):
-    """Air of the temperature at which the tip has this Mach number: a^2 = gamma R T."""
+    """The temperature of the air follows from the tip Mach number: a^2 = gamma R T."""
     temperature = (rpm * math.pi / 30.0 * RADIUS / mach) ** 2 / (1.4 * 287.053)
     return {
         "geometry.file": "caradonna-tung.toml",
@@ -39,19 +42,22 @@ def parameters(rule, pitch, rpm, mach):
 
 def fly(rotor, task, _resources):
     def thrust(pitch, rpm, mach):
-        rotor.start(parameters(task, pitch, rpm, mach))
+        rotor.begin(parameters(task, pitch, rpm, mach))
         return rotor.fly(("thrustCoefficient",))[0]
 
-    # The lines have the Mach number by the rotor's speed in air of 16 degrees Celsius, as the tests had.
+    # Along the lines the rotor speed gives the Mach number, in air of 16 degrees Celsius as in the
+    # tests.
     sound = math.sqrt(1.4 * 287.053 * 289.0)
     speed = lambda mach: mach * sound / RADIUS * 30.0 / math.pi
     found = {
         "lines": {str(p): [thrust(p, speed(m), m) for m in MACHS] for p in PITCHES},
-        "points": [thrust(r["collective_deg"], r["rpm"], r["M_tip"]) for r in measured.rows(THRUST)],
+        "points": [
+            thrust(r["collective_deg"], r["rpm"], r["M_tip"]) for r in measured.rows(THRUST)
+        ],
     }
     case = measured.rows(LIFT)[0]
     chosen = parameters(task, case["collective_deg"], case["rpm"], case["M_tip"])
-    rotor.start(chosen)
+    rotor.begin(chosen)
     stations = lambda name: rotor.fly([f"station[{i}].{name}" for i in STATIONS])
     found["radius"], found["lift"] = stations("radius"), stations("liftCoefficient")
     found["models"] = rotor.models(chosen)
@@ -82,24 +88,34 @@ def draw(flown, rows, file):
     for i, rule in enumerate(RULES):
         for pitch in PITCHES:
             line = flown[rule]["lines"][str(pitch)]
-            by_mach.plot(MACHS, line, **drawing.line(i), label=rule if pitch == PITCHES[0] else None)
+            by_mach.plot(
+                MACHS, line, **drawing.line(i), label=rule if pitch == PITCHES[0] else None
+            )
         by_radius.plot(flown[rule]["radius"], flown[rule]["lift"], **drawing.line(i))
     for i, pitch in enumerate(PITCHES):
         own = [(r["M_tip"], r["CT"]) for r in rows if r["collective_deg"] == pitch]
         by_mach.plot(*zip(*own), **drawing.points(i), label=f"measured, {pitch} deg")
         for mach, thrust in [
-            (r["M_tip"], r["CT"]) for r in rows if r["rpm"] == MISPRINT and r["collective_deg"] == pitch
+            (r["M_tip"], r["CT"])
+            for r in rows
+            if r["rpm"] == MISPRINT and r["collective_deg"] == pitch
         ]:
             by_mach.annotate(
                 "misprint", (mach, thrust), xytext=(0, -13), textcoords="offset points", ha="center"
             )
         top = flown["none"]["lines"][str(pitch)][0]
-        by_mach.annotate(f"{pitch} deg", (MACHS[0], top), xytext=(2, -11), textcoords="offset points")
+        by_mach.annotate(
+            f"{pitch} deg", (MACHS[0], top), xytext=(2, -11), textcoords="offset points"
+        )
     lift = measured.rows(LIFT)
     by_radius.plot([r["r_over_R"] for r in lift], [r["Cl"] for r in lift], **drawing.points(1))
-    by_mach.set(xlabel="tip Mach number", ylabel="thrust coefficient CT", ylim=(0, None), xlim=(0.38, 0.92))
+    by_mach.set(
+        xlabel="tip Mach number", ylabel="thrust coefficient CT", ylim=(0, None), xlim=(0.38, 0.92)
+    )
     drawing.coefficient_axis(by_mach)
-    by_radius.set(xlabel="radius r/R", ylabel="section lift coefficient", ylim=(0, None), xlim=(0.15, 1))
+    by_radius.set(
+        xlabel="radius r/R", ylabel="section lift coefficient", ylim=(0, None), xlim=(0.15, 1)
+    )
     by_radius.set_title("8 deg, tip Mach number 0.439", fontsize=9)
     drawing.legend_below(figure, by_mach, 3)
     drawing.save(figure, file)

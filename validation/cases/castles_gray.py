@@ -21,7 +21,7 @@ QUANTITIES = (("CT", "CT"), ("CQ rise", "DeltaCQ"))
 
 
 def runs(rpm):
-    """Runs at a speed by number: rows with a pitch."""
+    """Runs at a rotor speed, by number: their rows that have a pitch."""
     found = {}
     for row in measured.rows(FILE):
         if row["rpm"] == rpm and row["theta_075R_deg"] is not None:
@@ -35,17 +35,19 @@ def is_compared(row):
 
 def fly(rotor, task, _resources):
     parameters = {**rotors.CASTLES_GRAY, "rpm": float(task)}
-    rotor.start(parameters)
+    rotor.begin(parameters)
 
     def at(pitch):
         thrust, torque = rotor.fly(OUTPUTS, collective=math.radians(pitch))
         return thrust, torque - drag
 
     drag = 0.0
-    drag = at(0.0)[1]  # untwisted and symmetric: no thrust at no pitch
+    drag = at(0.0)[1]  # untwisted symmetric blades: no thrust at zero pitch
     return {
         "line": [at(pitch) for pitch in PITCHES],
-        "points": {n: [at(r["theta_075R_deg"]) for r in rows] for n, rows in runs(int(task)).items()},
+        "points": {
+            n: [at(r["theta_075R_deg"]) for r in rows] for n, rows in runs(int(task)).items()
+        },
         "models": rotor.models(parameters),
     }
 
@@ -74,9 +76,13 @@ def report(flown, figures):
 
 
 def scatter(rpm, column):
-    """Of a single measurement, %: from the differences of the logarithms between the two runs."""
+    """Scatter of a single measurement, %, from the logarithms of the two runs."""
     logarithms = [
-        [(r["theta_075R_deg"], math.log(r[column])) for r in rows if is_compared(r) and r[column] is not None]
+        [
+            (r["theta_075R_deg"], math.log(r[column]))
+            for r in rows
+            if is_compared(r) and r[column] is not None
+        ]
         for rows in runs(rpm).values()
     ]
     return 100.0 * errors.spread(logarithms)

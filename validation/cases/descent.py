@@ -1,6 +1,7 @@
 """Vertical descent at fixed thrust: Castles & Gray (1951, NACA TN 2474, Table I).
 
-The thrust is fixed as in the tests: a root search finds the collective at which the FMU has the measured CT.
+The thrust is fixed as in the tests: a root search finds the collective at which the FMU has the
+measured CT.
 """
 
 import math
@@ -37,11 +38,16 @@ LOWEST, HIGHEST = -12.0, 25.0  # deg of collective
 LINES = ((0.002, 1200.0), (0.004, 1200.0), (0.005, 1600.0))
 DESCENTS = [i / 20 for i in range(53)]
 OTHERS = "**the other runs**"
-JUMP = 0.01  # of the thrust: where no collective gives it, the search ends at a jump
+# Relative error of the thrust. Where no collective gives the thrust, the search ends at a jump.
+JUMP = 0.01
 
 
 def rows():
-    return [r for r in measured.rows(FILE) if r["lambda_z"] is not None and r["theta_075R_deg"] is not None]
+    return [
+        r
+        for r in measured.rows(FILE)
+        if r["lambda_z"] is not None and r["theta_075R_deg"] is not None
+    ]
 
 
 def fly(rotor, task, _resources):
@@ -51,14 +57,15 @@ def fly(rotor, task, _resources):
     parameters = {**rotors.CASTLES_GRAY, "models.descent": law, "models.inflow": inflow}
 
     def trimmed(thrust, rpm, ratio):
-        """Collective (deg), rise of CQ, v/v_h at CT and V_d/v_h; whether that thrust can be had."""
+        """Collective (deg), rise of CQ, v/v_h, and whether some collective gives this thrust, at CT
+        and V_d/v_h."""
         speed = rotors.hover_speed(thrust, rotors.CASTLES_GRAY_RADIUS, rpm)
         at = lambda pitch: rotor.fly(
             OUTPUTS, collective=math.radians(pitch), rpm=rpm, **{"velocity[3]": -ratio * speed}
         )
         surplus = lambda pitch: at(pitch)[0] - thrust
-        # The lowest collective of those with this thrust: others are beyond stall or, in momentum theory
-        # past 2 v_h, on the branch that is not the windmill's.
+        # The lowest collective with this thrust. Higher ones are beyond stall or, in momentum
+        # theory beyond 2 v_h, on another branch than the windmill brake state.
         high = next(p for p in np.arange(LOWEST, HIGHEST) if surplus(p) > 0.0)
         pitch = brentq(surplus, high - 1.0, high, xtol=1e-4)
         own, torque, induced = at(pitch)
@@ -71,7 +78,7 @@ def fly(rotor, task, _resources):
         return drags[rpm]
 
     drags = {}
-    rotor.start(parameters)
+    rotor.begin(parameters)
     return {
         "points": [trimmed(r["CT"], r["rpm"], r["lambda_z"]) for r in rows()],
         "lines": [[trimmed(ct, rpm, d) for d in DESCENTS] for ct, rpm in LINES],
@@ -80,9 +87,12 @@ def fly(rotor, task, _resources):
 
 
 def halves():
-    """The law of descent fitted to half of the runs, on either half: errors of v/v_h (each run over its own hover
-    value) and in deg of collective what they are worth to a rotor at the run's thrust (3/2 of the change in inflow
-    ratio, from CT = sigma a/2 (theta_0.75/3 - lambda/2))."""
+    """The law of descent fitted to half of the runs, and its errors on either half.
+
+    Errors are those of v/v_h, each run divided by its own hover value, and what they are worth in
+    deg of collective to a rotor at the thrust of the run: 3/2 of the change in inflow ratio, from
+    CT = sigma a/2 (theta_0.75/3 - lambda/2).
+    """
     sys.path.insert(0, str(LAW_FOLDER))
     import fit
 
@@ -92,7 +102,9 @@ def halves():
 
     def judged(g, chosen):
         parts = [fit.errors(lambda d: fit.induced(g, d), [runs[n]]) for n in chosen]
-        worth = [1.5 * math.degrees(1.0) * math.sqrt(0.5 * thrust[n]) * p for n, p in zip(chosen, parts)]
+        worth = [
+            1.5 * math.degrees(1.0) * math.sqrt(0.5 * thrust[n]) * p for n, p in zip(chosen, parts)
+        ]
         return np.concatenate(parts).tolist(), np.concatenate(worth).tolist()
 
     found = [("all runs", "the same", *judged(fit.law(fit.fit([runs[n] for n in names])), names))]
@@ -112,7 +124,11 @@ def report(flown, figures):
     with_inflow = [i for i, r in enumerate(data) if r["lambda_i_thrust"] is not None]
     hover = {
         ct: np.mean(
-            [r["DeltaCQ"] for r in data if r["CT"] == ct and r["lambda_z"] == 0 and r["DeltaCQ"] is not None]
+            [
+                r["DeltaCQ"]
+                for r in data
+                if r["CT"] == ct and r["lambda_z"] == 0 and r["DeltaCQ"] is not None
+            ]
         )
         for ct in {r["CT"] for r in data}
     }
@@ -137,7 +153,9 @@ def report(flown, figures):
                 [points[i][1] for i in with_torque],
                 [data[i]["DeltaCQ"] for i in with_torque],
                 "hover",
-                scatter([data[i] for i in with_torque], lambda r: 100.0 * r["DeltaCQ"] / hover[r["CT"]]),
+                scatter(
+                    [data[i] for i in with_torque], lambda r: 100.0 * r["DeltaCQ"] / hover[r["CT"]]
+                ),
             ),
             errors.percent(
                 CASE,
@@ -145,10 +163,14 @@ def report(flown, figures):
                 name,
                 [points[i][2] for i in with_inflow],
                 [data[i]["lambda_i_thrust"] for i in with_inflow],
-                scatter([data[i] for i in with_inflow], lambda r: 100.0 * math.log(r["lambda_i_thrust"])),
+                scatter(
+                    [data[i] for i in with_inflow], lambda r: 100.0 * math.log(r["lambda_i_thrust"])
+                ),
             ),
         ]
-    found.errors.sort(key=lambda e: ("collective", "torque rise", "induced velocity").index(e.quantity))
+    found.errors.sort(
+        key=lambda e: ("collective", "torque rise", "induced velocity").index(e.quantity)
+    )
     draw(flown, data, figures)
     halves_table = [
         [own, on, f"{errors.rms(velocity):.2f}", f"{errors.rms(angle):.2f}"]
@@ -160,25 +182,32 @@ def report(flown, figures):
         errors.degrees(CASE, "inflow, in deg of collective", HELD_OUT, unseen, 0.0 * unseen, turns)
     )
     jumps = {
-        f"{law}, {inflow}": sum(not p[3] for p in flown[f"{law} {inflow}"]["points"]) for law, inflow in LAWS
+        f"{law}, {inflow}": sum(not p[3] for p in flown[f"{law} {inflow}"]["points"])
+        for law, inflow in LAWS
     }
     found.texts = {
         "descent.errors": page.error_table([e for e in found.errors if e.model != HELD_OUT]),
         "descent.hover-torque": hover_torques(data),
         "descent.models": flown["measured uniform"]["models"],
         "descent.halves": page.table(
-            ["fitted to", "judged on", "RMS of v/v_h", "worth in collective, deg RMS"], halves_table, 2
+            ["fitted to", "judged on", "RMS of v/v_h", "worth in collective, deg RMS"],
+            halves_table,
+            2,
         ),
-        "descent.jumps": ", ".join(f"{count} with `{name}`" for name, count in jumps.items() if count)
+        "descent.jumps": ", ".join(
+            f"{count} with `{name}`" for name, count in jumps.items() if count
+        )
         or "none",
     }
     return found
 
 
 def hover_torques(data):
-    """The rise of torque in hover at a CT in this table, and between the points of the other."""
+    """The rise of torque in hover at CT = 0.004: measured in Table I, interpolated in Table V."""
     of_runs = [
-        r["DeltaCQ"] for r in data if r["CT"] == 0.004 and r["lambda_z"] == 0.0 and r["DeltaCQ"] is not None
+        r["DeltaCQ"]
+        for r in data
+        if r["CT"] == 0.004 and r["lambda_z"] == 0.0 and r["DeltaCQ"] is not None
     ]
     there = []
     for rpm in castles_gray.SPEEDS:
@@ -190,7 +219,7 @@ def hover_torques(data):
 
 
 def scatter(data, quantity):
-    """Of a single measurement: between runs at the same CT."""
+    """Scatter of a single measurement, from the differences between runs at the same CT."""
     found = []
     for ct in sorted({r["CT"] for r in data}):
         runs = {}
@@ -211,7 +240,10 @@ def draw(flown, data, figures):
             panel(axis, flown, i, place)
             own = [r for r in data if r["CT"] == ct and r[column] is not None]
             axis.plot(
-                [r["lambda_z"] for r in own], [r[column] for r in own], **thin_points(), label="measured"
+                [r["lambda_z"] for r in own],
+                [r[column] for r in own],
+                **thin_points(),
+                label="measured",
             )
             axis.set_title(f"CT = {ct}")
             axis.set(xlabel="rate of descent $V_d/v_h$", xlim=(0, 2.6))
@@ -228,7 +260,10 @@ def draw(flown, data, figures):
         values = [r["lambda_z"] for r in own], [r["lambda_i_thrust"] for r in own]
         axis.plot(*values, **drawing.points(i) | {"markersize": 3.5}, label=f"measured, CT = {ct}")
     axis.set(
-        xlabel="rate of descent $V_d/v_h$", ylabel="induced velocity $v/v_h$", xlim=(0, 2.6), ylim=(0, 2.9)
+        xlabel="rate of descent $V_d/v_h$",
+        ylabel="induced velocity $v/v_h$",
+        xlim=(0, 2.6),
+        ylim=(0, 2.9),
     )
     axis.legend(ncols=2)
     drawing.save(figure, figures / "descent-inflow.svg")
@@ -241,7 +276,9 @@ def thin_points():
 def panel(axis, flown, line, place):
     for i, task in enumerate(DRAWN):
         values = [p[place] if p[3] else math.nan for p in flown[task]["lines"][line]]
-        # Momentum theory jumps to the windmill at 2 v_h.
+        # Momentum theory jumps to the windmill brake state at 2 v_h.
         cut = DESCENTS.index(2.0) + 1 if task.startswith("momentum") else len(DESCENTS)
-        axis.plot(DESCENTS[:cut], values[:cut], **drawing.line(i), label="law " + task.replace(" ", ", "))
+        axis.plot(
+            DESCENTS[:cut], values[:cut], **drawing.line(i), label="law " + task.replace(" ", ", ")
+        )
         axis.plot(DESCENTS[cut:], values[cut:], **drawing.line(i))

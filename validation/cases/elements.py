@@ -1,11 +1,10 @@
 """The thesis' study of the number of blade elements (Lovaco 2017, section 4.1.1), in hover.
 
-Times differ from run to run and are no part of the page: they are printed and written beside the errors.
+Times differ from run to run, so they are not on the page: they are written beside the errors.
 """
 
 import math
 import time
-from pathlib import Path
 
 import drawing
 import page
@@ -28,11 +27,7 @@ SOLVES = 200
 def fly(rotor, task, resources):
     case, inflow = task.split("; ")
     with rotors.own_folder() as folder:
-        if case.startswith("thesis"):
-            own = rotors.THESIS
-        else:
-            blades = case.split()[3]
-            own = rotors.knight_hefner_slopes(blades, resources, Path(folder))
+        own = rotors.of_study(case, resources, folder)
         chosen = {
             **own,
             **rotors.THESIS_CHOICES,
@@ -41,18 +36,18 @@ def fly(rotor, task, resources):
         }
         values, times = [], []
         for count in COUNTS:
-            rotor.start({**chosen, "numerics.elements": count})
+            rotor.begin({**chosen, "numerics.elements": count})
             values.append(rotor.fly(OUTPUTS))
             begin = time.perf_counter()
             for i in range(SOLVES):
-                # Another pitch each time, or there would be nothing to solve.
+                # The pitch alternates, because unchanged inputs need no solution.
                 rotor.fly((), collective=math.radians(CASES[case]) + 1e-4 * (i % 2))
             times.append((time.perf_counter() - begin) / SOLVES)
         return {"values": values, "times": times, "models": rotor.models(chosen)}
 
 
 def settled(values, digits=3):
-    """The first count from which on this many digits stand: half a unit of the last of them from the last value."""
+    """The smallest count from which all values are within half a unit of this digit of the last."""
     unit = 10.0 ** (math.floor(math.log10(abs(values[-1]))) + 1 - digits)
     away = [i for i, v in enumerate(values) if abs(v - values[-1]) > 0.5 * unit]
     return COUNTS[max(away, default=-1) + 1]
@@ -77,7 +72,7 @@ def report(flown, figures):
 
 
 def times(flown):
-    """Time per solve, through FMPy, in s: rows of (case and inflow, number of elements, time)."""
+    """Time per solve through FMPy, s: rows of (case and inflow, number of elements, time)."""
     return [(task, n, t) for task in TASKS for n, t in zip(COUNTS, flown[task]["times"])]
 
 
@@ -92,7 +87,9 @@ def draw(flown, file):
                 axis.plot(COUNTS[:-1], away, **style, label=f"{case}, {inflow}")
         axis.set(xscale="log", yscale="log", xlabel="blade elements")
         axis.set_ylabel(f"difference of {name} from that of {COUNTS[-1]} elements, %")
-        axis.set_xticks([10, 20, 40, 80, 120, 300, 700], labels=["10", "20", "40", "80", "120", "300", "700"])
+        axis.set_xticks(
+            [10, 20, 40, 80, 120, 300, 700], labels=["10", "20", "40", "80", "120", "300", "700"]
+        )
         axis.minorticks_off()
     drawing.legend_below(figure, axes[0], 2)
     drawing.save(figure, file)

@@ -20,11 +20,11 @@ TASKS = [f"{lift} {blades}" for lift in LIFTS for blades in BLADES]
 COMPARED_FROM = 4.0  # deg; below, the measured thrust is too small for differences in per cent
 PITCHES = [0.5 * i for i in range(31)]
 OUTPUTS = ("thrustCoefficient", "torqueCoefficient")
-SETTING = 0.05  # deg, to which the report says that the blades were set
+SETTING = 0.05  # deg, accuracy to which the blades were set, by the report
 
 
 def points(blades):
-    """(pitch in deg, CT, CQ) of a rotor."""
+    """Rows (pitch in deg, CT, CQ) of a rotor."""
     rows = [row for row in measured.rows(FILE) if row["blades"] == blades]
     return [(row["theta_deg"], row["CT_rotor"], row["CQ_rotor"]) for row in rows]
 
@@ -37,7 +37,7 @@ def fly(rotor, task, resources):
         else:
             parameters = rotors.knight_hefner(blades)
         parameters["models.lift"] = lift
-        rotor.start(parameters)
+        rotor.begin(parameters)
         at = lambda pitch: rotor.fly(OUTPUTS, collective=math.radians(pitch))
         return {
             "line": [at(pitch) for pitch in PITCHES],
@@ -60,9 +60,15 @@ def report(flown, figures):
             found.errors.append(
                 errors.percent(CASE, quantity, lift, *pairs, scatter=setting(compared, place))
             )
-        at_thrust = [torque_at(flown[f"{lift} {blades}"]["line"], p[1]) for blades in BLADES for p in compared[blades]]
+        at_thrust = [
+            torque_at(flown[f"{lift} {blades}"]["line"], p[1])
+            for blades in BLADES
+            for p in compared[blades]
+        ]
         found.errors.append(
-            errors.percent(CASE, "CQ at the measured CT", lift, at_thrust, [p[2] for p in everything])
+            errors.percent(
+                CASE, "CQ at the measured CT", lift, at_thrust, [p[2] for p in everything]
+            )
         )
     draw(flown, figures / "knight-hefner.svg")
     found.texts = {
@@ -74,15 +80,17 @@ def report(flown, figures):
 
 
 def torque_at(line, thrust):
-    """CQ where a computed line, (CT, CQ) by rising pitch, has a CT."""
+    """CQ at a CT on a computed line, which is (CT, CQ) by rising pitch."""
     thrusts, torques = np.array(line).T
     if not thrusts[0] <= thrust <= thrusts[-1]:
-        raise ValueError(f"Knight & Hefner: no computed pitch up to {PITCHES[-1]:g} deg has CT = {thrust:g}")
+        raise ValueError(
+            f"Knight & Hefner: no computed pitch up to {PITCHES[-1]:g} deg has CT = {thrust:g}"
+        )
     return float(PchipInterpolator(thrusts, torques)(thrust))
 
 
 def setting(compared, place):
-    """What 0.05 deg of blade angle are worth, RMS, %: from the measured slope, by a parabola through the points."""
+    """RMS effect, %, of the blade angle's accuracy, from a parabola through the points."""
     shares = []
     for rows in compared.values():
         pitch, values = np.array([(p[0], p[1 + place]) for p in rows]).T
@@ -92,13 +100,17 @@ def setting(compared, place):
 
 
 def low_pitch(flown):
-    """The points that are not in the means, with the default lift."""
+    """The points at low pitch, which are not in the errors, with the default lift."""
     rows = []
     for blades in BLADES:
-        for (pitch, ct, cq), (own_ct, own_cq) in zip(points(blades), flown[f"table {blades}"]["points"]):
+        for (pitch, ct, cq), (own_ct, own_cq) in zip(
+            points(blades), flown[f"table {blades}"]["points"]
+        ):
             if pitch >= COMPARED_FROM:
                 continue
-            of = lambda own, said: page.number(100.0 * (own / said - 1.0), "%", True) if said else "-"
+            of = lambda own, said: (
+                page.number(100.0 * (own / said - 1.0), "%", True) if said else "-"
+            )
             rows.append(
                 [
                     blades,

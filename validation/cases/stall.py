@@ -1,8 +1,8 @@
-"""The thesis' study of stalled stations (Lovaco 2017, section 4.2): the last stalled and the first attached blade element
-in hover, counted from the root; and from which collective on anything stalls."""
+"""The thesis' study of stalled stations (Lovaco 2017, section 4.2): the last stalled and the first
+attached blade element in hover, counted from the root, and the collective at which stall begins.
+"""
 
 import math
-from pathlib import Path
 
 import drawing
 import page
@@ -28,9 +28,9 @@ OUTPUTS = ("stalledRadius", "stalledFraction")
 def fly(rotor, task, resources):
     case, setting = task.split("; ")
     with rotors.own_folder() as folder:
-        own = rotors.THESIS if case == "thesis" else rotors.knight_hefner_slopes(4, resources, Path(folder))
+        own = rotors.of_study(case, resources, folder)
         chosen = {**own, **SETTINGS[setting], "numerics.elements": ELEMENTS}
-        rotor.start(chosen)
+        rotor.begin(chosen)
         stations = lambda name, pitch: rotor.fly(
             [f"station[{i}].{name}" for i in STATIONS], collective=math.radians(pitch)
         )
@@ -60,8 +60,14 @@ def report(flown, figures):
                 cell.append(in_metres(last) if last > 0.0 else "none")
                 cell.append(in_metres(first) if first < 1.0 else "none")
                 cell.append(f"{100.0 * fraction:.0f} %")
-            onset = next(((p, last) for p, (last, _) in zip(SWEEP, own["sweep"]) if last > 0.0), None)
-            cell.append(f"{onset[0]:.2f} deg, at r/R {onset[1]:.2f}" if onset else f"above {SWEEP[-1]:g} deg")
+            onset = next(
+                ((p, last) for p, (last, _) in zip(SWEEP, own["sweep"]) if last > 0.0), None
+            )
+            cell.append(
+                f"{onset[0]:.2f} deg, at r/R {onset[1]:.2f}"
+                if onset
+                else f"above {SWEEP[-1]:g} deg"
+            )
             cells.append(cell)
     of_pitch = [
         f"{what} at {pitch} deg"
@@ -83,7 +89,9 @@ def draw(flown, file):
         own = flown[f"{case}; slopesByReynolds, annulus"]
         for i, pitch in enumerate(rotors.THESIS_PITCHES):
             style = drawing.line(i) | {"marker": ("", "o")[j], "markersize": 3}
-            by_radius.plot(own["radius"], own["angles"][pitch], **style, label=f"{case}, {pitch} deg")
+            by_radius.plot(
+                own["radius"], own["angles"][pitch], **style, label=f"{case}, {pitch} deg"
+            )
         for i, setting in enumerate(SETTINGS):
             values = [100.0 * fraction for _, fraction in flown[f"{case}; {setting}"]["sweep"]]
             style = drawing.line(i) | {"marker": ("", "o")[j], "markersize": 3, "markevery": 5}
@@ -92,7 +100,10 @@ def draw(flown, file):
         by_pitch.axvline(pitch, color="0.6", linewidth=0.8)
     by_radius.set(xlabel="radius r/R", ylabel="angle of attack, deg", xlim=(0, 1), ylim=(0, None))
     by_pitch.set(
-        xlabel="collective, deg", ylabel="share of the span that is stalled, %", xlim=(10, 30), ylim=(-2, 102)
+        xlabel="collective, deg",
+        ylabel="share of the span that is stalled, %",
+        xlim=(10, 30),
+        ylim=(-2, 102),
     )
     for axis in (by_radius, by_pitch):
         axis.legend(loc="upper center", bbox_to_anchor=(0.5, -0.15), frameon=False, fontsize=7.5)

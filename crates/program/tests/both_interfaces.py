@@ -1,24 +1,29 @@
-"""Flies one manoeuvre in FMPy through Model Exchange with CVode, through Co-Simulation, with and without input
-derivatives, and goes back to a serialized state; prints what the test compares.
+"""Flies one manoeuvre in FMPy through Model Exchange with CVode and through Co-Simulation, with and
+without input derivatives, goes back to a saved state, and prints what the test compares. It also
+holds the Rotor of the examples to its answers to slips.
 
-FMPy holds the inputs within each output interval in Model Exchange, too.
+In Model Exchange FMPy holds the inputs within each output interval.
 """
 
 import sys
+from pathlib import Path
 
 import numpy as np
-from fmpy import extract, instantiate_fmu, read_model_description, simulate_fmu
+from fmpy import read_model_description, simulate_fmu
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "fmu-examples"))
+
+from rotor import Rotor, RotorError, as_numbers
 
 fmu = sys.argv[1]
 names = ["thrust", "rotorSpeed", "coning", "azimuth", "collective"]
-# Dynamic inflow of Pitt & Peters, flapping blades, driven by a torque.
-start = {
-    "models.inflow": "12",
+parameters = {
+    "models.inflow": "pittPetersDynamic",
     "flapping.enabled": True,
-    "drive.mode": "2",
+    "drive.mode": "torque",
     "drive.inertia": 0.5,
 }
-# Nine inputs, as FMPy has room for the derivatives of nine.
+# Nine inputs: FMPy takes the derivatives of no more.
 inputs = {
     "collective": (0.14, 0.2),
     "cyclicLongitudinal": (0.0, 0.02),
@@ -34,7 +39,12 @@ ramp = np.array(
     list(zip((0.0, 0.4), *inputs.values())),
     dtype=[("time", float)] + [(name, float) for name in inputs],
 )
-manoeuvre = dict(start_values=start, input=ramp, output=names, stop_time=0.4)
+manoeuvre = dict(
+    start_values=as_numbers(read_model_description(fmu), parameters),
+    input=ramp,
+    output=names,
+    stop_time=0.4,
+)
 
 
 def co_simulation(interval, with_derivatives):
@@ -62,24 +72,43 @@ flown = {
 for kind, result in flown.items():
     print(kind, *(repr(float(result[name][-1])) for name in names))
 
-description = read_model_description(fmu)
-instance = instantiate_fmu(extract(fmu), description, "CoSimulation")
-instance.setupExperiment()
-instance.enterInitializationMode()
-instance.exitInitializationMode()
-instance.doStep(0.0, 0.01)
-[thrust] = [v.valueReference for v in description.modelVariables if v.name == "thrust"]
-state = instance.getFMUState()
-stored = instance.serializeFMUstate(state)
-instance.freeFMUState(state)
-answers = []
-for _ in range(2):
-    state = instance.deSerializeFMUstate(stored)
-    instance.setFMUState(state)
-    instance.freeFMUState(state)
-    instance.setReal([0], [0.2])
-    instance.doStep(0.01, 0.01)
-    answers += instance.getReal([thrust])
-print("state", *map(repr, answers))
-instance.terminate()
-instance.freeInstance()
+with Rotor(fmu) as rotor:
+    rotor.step(0.01)
+    saved = rotor.save()
+    answers = []
+    for _ in range(2):
+        rotor.restore(saved)
+        rotor.set({"collective": 0.2})
+        rotor.step(0.01)
+        answers.append(rotor["thrust"])
+    print("state", *map(repr, answers))
+
+
+# What the Rotor answers to a slip.
+def refused(action):
+    try:
+        action()
+    except RotorError as error:
+        return str(error)
+    raise AssertionError("an error was expected")
+
+
+def expect(words, *parts):
+    assert all(part in words for part in parts), words
+
+
+expect(refused(lambda: Rotor("missing.fmu")), "missing.fmu does not exist")
+expect(refused(lambda: Rotor(fmu, {"models.inflow": "glauert"})), "models.inflow", "uniform")
+expect(refused(lambda: Rotor(fmu, {"geometry.radius": -1.0})), "geometry.radius")
+with Rotor(fmu, interface="ModelExchange") as rotor:
+    expect(refused(lambda: rotor.step(0.1)), "CoSimulation")
+    expect(refused(lambda: rotor.set_states({"azimut": 0.0})), "azimut")
+with Rotor(fmu, {"models.inflow": "uniform"}) as rotor:
+    expect(refused(lambda: rotor["thurst"]), "no variable thurst", "thrust")
+    assert rotor["models.inflow"] == "uniform" and rotor["flapping.enabled"] is False
+    rotor.step(0.1, rates={"collective": 0.5})
+    expect(refused(lambda: rotor.set({"geometry.radius": 1.0})), "geometry.radius")
+    # Refused parameters leave the rotor as it is.
+    before = rotor["collective"]
+    rotor.step(0.1)
+    assert rotor["collective"] == before > 0.05

@@ -1,8 +1,11 @@
-"""Holds the reference files in an FMU against the rules of their formats; prints what breaks them, or "Conforms.".
+"""Holds the reference files in an FMU against the rules of their formats.
 
-FMI Layered Standard References: which elements, attributes and roles its manifest and the experiments file may have,
-and where files lie. Parameter sets are validated by the schema of SSP that FMPy brings. CSV files keep the rules of the
-FMI cross-check, version 4.1, appendix B, and ours: rows of inputs at each communication point.
+Prints what breaks the rules, or "Conforms.".
+
+FMI Layered Standard References: elements, attributes and roles of the manifest and the experiments
+file, and where files lie. Parameter sets are validated by the schema of SSP that comes with FMPy.
+CSV files keep the rules of the FMI cross-check, version 4.1, appendix B, and one of this project:
+there is a row of inputs at each communication point.
 
     python layered_standard.py HelicopterRotor.fmu
 """
@@ -21,7 +24,9 @@ NAMESPACE = "{http://fmi-standard.org/fmi-ls-manifest}"
 ROOT = {
     f"{NAMESPACE}fmi-ls-name": "org.fmi-standard.fmi-ls-ref",
     f"{NAMESPACE}fmi-ls-version": "1.0.0-alpha.1",
-    f"{NAMESPACE}fmi-ls-description": "Layered Standard providing information on related files included in an FMU.",
+    f"{NAMESPACE}fmi-ls-description": (
+        "Layered Standard providing information on related files included in an FMU."
+    ),
 }
 ROLES = (
     "document|requirement|specification|model|parameter|system|testcase"
@@ -48,8 +53,14 @@ def manifest(archive):
     for element in root:
         source = normpath(join(FOLDER, element.get("source", "")))
         expect(element.tag == "Related", f"the manifest has an element {element.tag}")
-        expect(set(element.attrib) == {"type", "source", "role", "description"}, f"{source}: {dict(element.attrib)}")
-        expect(re.fullmatch(ROLES, element.get("role", "")), f"{source} has the role {element.get('role')}")
+        expect(
+            set(element.attrib) == {"type", "source", "role", "description"},
+            f"{source}: {dict(element.attrib)}",
+        )
+        expect(
+            re.fullmatch(ROLES, element.get("role", "")),
+            f"{source} has the role {element.get('role')}",
+        )
         expect(source in archive.namelist(), f"{source} is not in the archive")
         expect(source not in related, f"{source} is named twice")
         related[source] = element.get("role")
@@ -69,7 +80,9 @@ def table(archive, path, variables, causality):
     expect(names[0] == "time", f"{path}: the first column is {names[0]}")
     for name in names[1:]:
         found = variables.get(name)
-        expect(found and found.causality == causality, f"{path}: {name} is no {causality} of the FMU")
+        expect(
+            found and found.causality == causality, f"{path}: {name} is no {causality} of the FMU"
+        )
     rows = [line.split(",") for line in lines]
     for row in rows:
         fits = len(row) == len(names) and all(NUMBER.fullmatch(field) for field in row)
@@ -86,19 +99,38 @@ def experiments(archive, path, variables):
     for element in root:
         name = element.get("name")
         attributes = {"name", "description", "startTime", "stopTime", "stepSize"}
-        expect(element.tag == "Experiment" and set(element.attrib) == attributes, f"{path}: {dict(element.attrib)}")
+        expect(
+            element.tag == "Experiment" and set(element.attrib) == attributes,
+            f"{path}: {dict(element.attrib)}",
+        )
         parts = [child.tag for child in element]
         expect(parts == [part for part in PARTS if part in parts], f"{name} has the parts {parts}")
-        source = {child.tag: normpath(join(dirname(path), child.get("source"))) for child in element}
-        start, stop, step = (float(element.get(key)) for key in ("startTime", "stopTime", "stepSize"))
+        source = {
+            child.tag: normpath(join(dirname(path), child.get("source"))) for child in element
+        }
+        start, stop, step = (
+            float(element.get(key)) for key in ("startTime", "stopTime", "stepSize")
+        )
         times = table(archive, source["Stimuli"], variables, "input")
         points = [start + i * step for i in range(round((stop - start) / step) + 1)]
-        expect(len(times) == len(points), f"{name}: {len(times)} rows of inputs, {len(points)} communication points")
-        expect(all(abs(t - p) < 1e-9 for t, p in zip(times, points)), f"{name}: inputs are not at communication points")
+        expect(
+            len(times) == len(points),
+            f"{name}: {len(times)} rows of inputs, {len(points)} communication points",
+        )
+        expect(
+            all(abs(t - p) < 1e-9 for t, p in zip(times, points)),
+            f"{name}: inputs are not at communication points",
+        )
         times = table(archive, source["References"], variables, "output")
-        expect((times[0], times[-1]) == (start, stop), f"{name}: references from {times[0]} to {times[-1]} s")
+        expect(
+            (times[0], times[-1]) == (start, stop),
+            f"{name}: references from {times[0]} to {times[-1]} s",
+        )
         on_points = all(abs(t / step - round(t / step)) < 1e-6 for t in times)
-        expect(on_points and times == sorted(set(times)), f"{name}: references are not at communication points")
+        expect(
+            on_points and times == sorted(set(times)),
+            f"{name}: references are not at communication points",
+        )
 
 
 def parameter_set(archive, path, variables):

@@ -1,13 +1,13 @@
-"""The measured data, read from fmu-examples/data; each file's header names its source and its traps."""
+"""The measured data in data/; the header of each file names its source and its traps."""
 
 import csv
 from pathlib import Path
 
-FOLDER = Path(__file__).resolve().parent.parent / "fmu-examples" / "data"
+FOLDER = Path(__file__).resolve().parent / "data"
 
 
 def rows(file):
-    """Rows of a file as dictionaries: numbers as floats, what is not given as None, other text as it is."""
+    """Rows of a file as dictionaries: numbers as floats, empty cells as None, other text as is."""
     with (FOLDER / file).open(encoding="utf-8") as text:
         return [
             {name: _value(cell) for name, cell in row.items()}
