@@ -3,7 +3,7 @@
 #![allow(non_snake_case)]
 
 use super::{
-    common::elements,
+    arguments::{elements, elements_mut},
     instance::{Instance, Message, Outcome, call, refuse},
     legality::Function,
     types::*,
@@ -99,6 +99,39 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2SetRealInputDerivatives, body) }
+}
+
+/// # Safety
+/// As in the standard: `vr`, `order` and `value` have `nvr` elements.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    order: *const fmi2Integer,
+    value: *mut fmi2Real,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller.
+        let (vr, order, value) = unsafe {
+            (
+                elements(vr, nvr, "vr")?,
+                elements(order, nvr, "order")?,
+                elements_mut(value, nvr, "value")?,
+            )
+        };
+        if let Some(other) = order.iter().find(|order| **order != 1) {
+            return refuse(format!(
+                "order = {other}; this FMU has first derivatives of its outputs, pass 1"
+            ));
+        }
+        for (slot, rate) in value.iter_mut().zip(instance.block.output_rates(vr)?) {
+            *slot = rate;
+        }
+        Ok(())
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, Function::fmi2GetRealOutputDerivatives, body) }
 }
 
 // ------------------------------------------------------------------ status

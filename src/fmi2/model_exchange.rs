@@ -6,7 +6,7 @@
 #![allow(non_snake_case)]
 
 use super::{
-    common::{elements, elements_mut},
+    arguments::{elements, elements_mut},
     instance::{Instance, Message, Outcome, call, refuse},
     legality::{CONTINUOUS_TIME_MODE, EVENT_MODE, Function},
     types::*,

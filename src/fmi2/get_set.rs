@@ -3,7 +3,7 @@
 #![allow(non_snake_case)]
 
 use super::{
-    common::{elements, elements_mut, text},
+    arguments::{elements, elements_mut, text},
     instance::{Instance, Message, call},
     legality::{CONTINUOUS_TIME_MODE, Function, INITIALIZATION_MODE},
     logger::printable,

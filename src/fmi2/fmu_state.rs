@@ -15,7 +15,7 @@
 #![allow(non_snake_case)]
 
 use super::{
-    common::{elements, elements_mut},
+    arguments::{elements, elements_mut},
     instance::{Experiment, Instance, Message, Outcome, call, refuse},
     legality::Function,
     legality::{
