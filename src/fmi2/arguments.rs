@@ -1,13 +1,46 @@
-//! What an importer passes behind pointers: arrays and strings.
+//! What an importer passes behind pointers: arrays, places for answers, and strings.
+//!
+//! Pointers are checked as far as that can be done before a reference is made: for null, for
+//! alignment, and for a size that memory can have. Whether the memory is there, only the importer
+//! knows.
 
-use super::{instance::Message, types::fmi2String};
-use core::ffi::CStr;
-use std::slice;
+use super::{
+    instance::{Message, Outcome, refuse},
+    types::fmi2String,
+};
+use core::{alloc::Layout, ffi::CStr, mem::MaybeUninit, slice};
 
-/// The elements behind a pointer; none where the importer says that there are none.
+/// An error if `pointer` cannot point to `count` elements (> 0).
+fn check<T>(pointer: *const T, count: usize, what: &str) -> Outcome {
+    if pointer.is_null() {
+        return refuse(format!(
+            "{what} is a null pointer; pass an array of {count} elements"
+        ));
+    }
+    check_alignment(pointer, what)?;
+    if Layout::array::<T>(count).is_err() {
+        return refuse(format!(
+            "{what} cannot have {count} elements; no memory is that large"
+        ));
+    }
+    Ok(())
+}
+
+fn check_alignment<T>(pointer: *const T, what: &str) -> Outcome {
+    if pointer.is_aligned() {
+        return Ok(());
+    }
+    refuse(format!(
+        "{what} is a misaligned pointer; its address must be a multiple of {}",
+        align_of::<T>()
+    ))
+}
+
+/// The elements behind a pointer; none if `count` is 0, whatever the pointer is.
 ///
 /// # Safety
-/// `pointer` is null or points to `count` initialised elements that live as long as the slice.
+/// If `pointer` passes `check`, it points to `count` initialised elements that live as long as the
+/// slice.
 pub unsafe fn elements<'a, T>(
     pointer: *const T,
     count: usize,
@@ -16,34 +49,49 @@ pub unsafe fn elements<'a, T>(
     if count == 0 {
         return Ok(&[]);
     }
-    if pointer.is_null() {
-        return Err(Message::Error(format!(
-            "{what} is a null pointer, but {count} are announced"
-        )));
-    }
-    // SAFETY: by the contract above.
+    check(pointer, count, what)?;
+    // SAFETY: by the contract above; not null, aligned, and no larger than memory can be.
     Ok(unsafe { slice::from_raw_parts(pointer, count) })
 }
 
-/// As `elements`, for what the function writes.
+/// Room for `count` answers behind a pointer, which the importer need not have initialised.
 ///
 /// # Safety
-/// As `elements`, and nothing else refers to the elements.
-pub unsafe fn elements_mut<'a, T>(
+/// If `pointer` passes `check`, it points to memory for `count` elements that lives as long as the
+/// slice and that nothing else refers to.
+pub unsafe fn room<'a, T>(
     pointer: *mut T,
     count: usize,
     what: &str,
-) -> Result<&'a mut [T], Message> {
+) -> Result<&'a mut [MaybeUninit<T>], Message> {
     if count == 0 {
         return Ok(&mut []);
     }
+    check(pointer, count, what)?;
+    // SAFETY: by the contract above; not null, aligned, and no larger than memory can be.
+    Ok(unsafe { slice::from_raw_parts_mut(pointer.cast(), count) })
+}
+
+/// As `room`, for one answer.
+///
+/// # Safety
+/// As `room`.
+pub unsafe fn place<'a, T>(pointer: *mut T, what: &str) -> Result<&'a mut MaybeUninit<T>, Message> {
     if pointer.is_null() {
         return Err(Message::Error(format!(
-            "{what} is a null pointer, but {count} are announced"
+            "{what} is a null pointer; pass a place for the answer"
         )));
     }
-    // SAFETY: by the contract above.
-    Ok(unsafe { slice::from_raw_parts_mut(pointer, count) })
+    check_alignment(pointer, what)?;
+    // SAFETY: by the contract above; not null and aligned.
+    Ok(unsafe { &mut *pointer.cast() })
+}
+
+/// Fills room with answers, one after the other.
+pub fn fill<T>(room: &mut [MaybeUninit<T>], answers: impl IntoIterator<Item = T>) {
+    for (slot, answer) in room.iter_mut().zip(answers) {
+        slot.write(answer);
+    }
 }
 
 /// The text behind a C string.
@@ -60,5 +108,5 @@ pub unsafe fn text<'a>(text: fmi2String, what: &str) -> Result<&'a str, Message>
     let bytes = unsafe { CStr::from_ptr(text) };
     bytes
         .to_str()
-        .map_err(|_| Message::Error(format!("{what} is no valid UTF-8; pass UTF-8")))
+        .map_err(|_| Message::Error(format!("{what} is not valid UTF-8; pass UTF-8")))
 }

@@ -3,7 +3,7 @@
 #![allow(non_snake_case)]
 
 use super::{
-    arguments::{elements, elements_mut},
+    arguments::{elements, fill, place, room},
     instance::{Instance, Message, Outcome, call, refuse},
     legality::Function,
     types::*,
@@ -117,7 +117,7 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
             (
                 elements(vr, nvr, "vr")?,
                 elements(order, nvr, "order")?,
-                elements_mut(value, nvr, "value")?,
+                room(value, nvr, "value")?,
             )
         };
         if let Some(other) = order.iter().find(|order| **order != 1) {
@@ -125,9 +125,7 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
                 "order = {other}; this FMU has first derivatives of its outputs, pass 1"
             ));
         }
-        for (slot, rate) in value.iter_mut().zip(instance.block.output_rates(vr)?) {
-            *slot = rate;
-        }
+        fill(value, instance.block.output_rates(vr)?);
         Ok(())
     };
     // SAFETY: passed on from the caller.
@@ -151,11 +149,8 @@ unsafe fn status<T>(
         let answer = answer(instance).ok_or_else(|| {
             Message::Error("there is no such status of this type; see fmi2StatusKind".into())
         })?;
-        if value.is_null() {
-            return refuse("value is a null pointer; pass a place for the answer".into());
-        }
-        // SAFETY: passed on from the caller; what stood there before is not looked at.
-        unsafe { value.write(answer) };
+        // SAFETY: passed on from the caller.
+        unsafe { place(value, "value")? }.write(answer);
         Ok(())
     };
     // SAFETY: passed on from the caller.

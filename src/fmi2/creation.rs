@@ -4,6 +4,7 @@
 
 use super::{
     arguments::text,
+    handle,
     instance::{Experiment, Instance, Message},
     legality::{INSTANTIATED, Interface},
     logger::{Category, Logger, printable},
@@ -34,8 +35,8 @@ pub unsafe extern "C" fn fmi2Instantiate(
 ) -> fmi2Component {
     keep_panics_silent();
     let body = || {
-        // SAFETY: passed on from the caller.
-        let callbacks = unsafe { functions.as_ref() };
+        // SAFETY: passed on from the caller. It is copied, whatever its alignment.
+        let callbacks = (!functions.is_null()).then(|| unsafe { functions.read_unaligned() });
         // SAFETY: passed on from the caller.
         let name = unsafe { text(instanceName, "instanceName") };
         let name = name.ok().filter(|n| !n.is_empty());
@@ -66,7 +67,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
             strings: PerVariable::new(Default::default()),
             experiment: Experiment::default(),
         };
-        Box::into_raw(Box::new(instance)).cast()
+        handle::create(instance)
     };
     catch_unwind(AssertUnwindSafe(body)).unwrap_or(ptr::null_mut())
 }
@@ -90,14 +91,11 @@ fn identity(kind: fmi2Enumeration, guid: Result<&str, Message>) -> Result<Interf
 /// As in the standard: `c` is null or comes from fmi2Instantiate and is not used afterwards.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
-    if c.is_null() {
-        return;
-    }
-    // Freeing is legal in every state that this FMU enters. Dropping cannot fail usefully.
-    let _ = catch_unwind(AssertUnwindSafe(|| {
-        // SAFETY: made by Box::into_raw in fmi2Instantiate.
-        drop(unsafe { Box::from_raw(c.cast::<Instance>()) });
-    }));
+    // Freeing is legal in every state that this FMU enters. Nobody is left to be told of a panic.
+    let _ = catch_unwind(|| {
+        // SAFETY: passed on from the caller.
+        unsafe { handle::free::<Instance>(c) };
+    });
 }
 
 /// Rust's standard panic hook prints; this library prints nothing and logs panics instead. The

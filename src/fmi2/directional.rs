@@ -3,7 +3,7 @@
 #![allow(non_snake_case)]
 
 use super::{
-    arguments::{elements, elements_mut},
+    arguments::{elements, fill, room},
     instance::{Instance, call},
     legality::Function,
     types::*,
@@ -29,13 +29,11 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
                 elements(vUnknown_ref, nUnknown, "vUnknown_ref")?,
                 elements(vKnown_ref, nKnown, "vKnown_ref")?,
                 elements(dvKnown, nKnown, "dvKnown")?,
-                elements_mut(dvUnknown, nUnknown, "dvUnknown")?,
+                room(dvUnknown, nUnknown, "dvUnknown")?,
             )
         };
         let changes = (instance.block).directional_derivative(unknowns, knowns, along)?;
-        for (slot, change) in out.iter_mut().zip(changes) {
-            *slot = change;
-        }
+        fill(out, changes);
         Ok(())
     };
     // SAFETY: passed on from the caller.

@@ -9,6 +9,7 @@
 //! * `logger.rs`: messages to the importer
 //! * `legality.rs`: which function may be called in which state
 //! * `instance.rs`: one instance, and the frame in which every function runs
+//! * `handle.rs`: how instances and states are recognised behind the importer's pointers
 //! * `types.rs`, `arguments.rs`: the types of C, and what is behind its pointers
 //! * `resource_location.rs`: where the resources lie
 
@@ -18,6 +19,7 @@ pub mod creation;
 pub mod directional;
 pub mod fmu_state;
 pub mod get_set;
+mod handle;
 mod instance;
 pub mod legality;
 pub mod life_cycle;
