@@ -19,6 +19,7 @@ mod abi {
     mod many;
     mod model_exchange;
     mod ownership;
+    mod pointers;
     mod random;
     mod resources;
     mod serialized;

@@ -4,10 +4,9 @@ use helicopter_rotor::{
     block::variables::{GUID, STATES, boolean, integer, real},
     fmi2::{
         co_simulation::{fmi2DoStep, fmi2SetRealInputDerivatives},
-        common::{
-            fmi2EnterInitializationMode, fmi2ExitInitializationMode, fmi2FreeInstance,
-            fmi2Instantiate,
-        },
+        creation::{fmi2FreeInstance, fmi2Instantiate},
+        get_set::{fmi2GetReal, fmi2SetBoolean, fmi2SetInteger, fmi2SetReal},
+        life_cycle::{fmi2EnterInitializationMode, fmi2ExitInitializationMode},
         model_exchange::{
             fmi2CompletedIntegratorStep, fmi2EnterContinuousTimeMode, fmi2EnterEventMode,
             fmi2GetContinuousStates, fmi2GetDerivatives, fmi2NewDiscreteStates,
@@ -17,7 +16,6 @@ use helicopter_rotor::{
             FMI2_CO_SIMULATION, FMI2_MODEL_EXCHANGE, fmi2Component, fmi2Enumeration, fmi2EventInfo,
             fmi2Status,
         },
-        values::{fmi2GetReal, fmi2SetBoolean, fmi2SetInteger, fmi2SetReal},
     },
 };
 use std::{

@@ -29,15 +29,16 @@ fn hover(block: &mut RotorBlock, collective_deg: f64, rpm: f64) -> [f64; 2] {
 
 /// The named columns of a measured table, rows with an empty field left out.
 fn measured<const N: usize>(file: &str, columns: [&str; N]) -> Vec<[f64; N]> {
-    let text = fs::read_to_string(root().join("fmu-examples/data").join(file)).unwrap();
-    let mut lines = text.lines().filter(|line| !line.starts_with('#'));
-    let header: Vec<&str> = lines.next().unwrap().split(',').collect();
-    let places = columns.map(|c| header.iter().position(|h| *h == c).unwrap());
-    let rows = lines.filter_map(|line| {
-        let fields: Vec<&str> = line.split(',').collect();
+    let path = root().join("fmu-examples/data").join(file);
+    let mut table = csv::ReaderBuilder::new();
+    let mut table = table.comment(Some(b'#')).from_path(path).unwrap();
+    let header = table.headers().unwrap();
+    let places = columns.map(|c| header.iter().position(|h| h == c).unwrap());
+    let rows = table.records().filter_map(|record| {
+        let record = record.unwrap();
         let mut row = [0.0; N];
         for (slot, place) in row.iter_mut().zip(places) {
-            *slot = fields[place].parse().ok()?;
+            *slot = record[place].parse().ok()?;
         }
         Some(row)
     });

@@ -54,3 +54,115 @@ impl Causality {
 }
 
 include!(concat!(env!("OUT_DIR"), "/variables.rs"));
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Fresh, RotorBlock};
+    use super::*;
+
+    const RESOURCES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/resources");
+
+    /// Wipes out everything that the block computes. What it then does not write stays NaN, or a
+    /// number that no enumeration has.
+    fn wipe(block: &mut RotorBlock) {
+        for real in RealRef::all().filter(|r| r.variable().causality.is_computed()) {
+            block.values.reals[real] = f64::NAN;
+        }
+        for integer in IntegerRef::all().filter(|r| r.variable().causality.is_computed()) {
+            block.values.integers[integer] = -1;
+        }
+        block.fresh = Fresh::Nothing;
+    }
+
+    #[track_caller]
+    fn everything_is_written(block: &RotorBlock) {
+        for real in RealRef::all() {
+            assert!(
+                block.values.reals[real].is_finite(),
+                "{}",
+                real.variable().name
+            );
+        }
+        for integer in IntegerRef::all() {
+            let v = integer.variable();
+            let range = v.min..=v.max;
+            assert!(
+                range.contains(&block.values.integers[integer]),
+                "{}",
+                v.name
+            );
+        }
+        let computed = |causality: Causality| causality.is_computed();
+        assert!(
+            !BOOLEANS.iter().any(|v| computed(v.causality)),
+            "wipe them, too"
+        );
+        assert!(
+            !STRINGS.iter().any(|v| computed(v.causality)),
+            "wipe them, too"
+        );
+    }
+
+    /// Forward flight with a driven shaft, with and without flapping blades.
+    fn flights() -> impl Iterator<Item = RotorBlock> {
+        [0, 1].into_iter().map(|flaps| {
+            let mut block = RotorBlock::new(RESOURCES.into());
+            let choices = [
+                (integer::MODELS__INFLOW, InflowModel::PetersHe as i32),
+                (integer::DRIVE__MODE, DriveMode::Torque as i32),
+                (integer::NUMERICS__ELEMENTS, 10),
+            ];
+            for (choice, value) in choices {
+                block.set_integers(&[choice], &[value]).unwrap();
+            }
+            block
+                .set_booleans(&[boolean::FLAPPING__ENABLED], &[flaps])
+                .unwrap();
+            let (names, values) = ([real::VELOCITY_1, real::DRIVE_TORQUE], [10.0, 3.0]);
+            block.set_reals(&names, &values).unwrap();
+            block
+        })
+    }
+
+    #[test]
+    fn a_step_writes_every_variable_that_is_computed() {
+        for mut block in flights() {
+            wipe(&mut block);
+            block.update().unwrap();
+            everything_is_written(&block);
+            wipe(&mut block);
+            block.start().unwrap();
+            everything_is_written(&block);
+            wipe(&mut block);
+            block.step(0.01).unwrap();
+            everything_is_written(&block);
+            block.set_input_slopes(&[real::COLLECTIVE], &[0.1]).unwrap();
+            wipe(&mut block);
+            block.step(0.01).unwrap();
+            everything_is_written(&block);
+        }
+    }
+
+    #[test]
+    fn an_integration_by_the_importer_writes_every_variable_that_is_computed() {
+        for mut block in flights() {
+            block.start().unwrap();
+            block.begin_integration().unwrap();
+            let mut states = block.states().unwrap();
+            states[0] += 0.1;
+            wipe(&mut block);
+            block.set_states(&states).unwrap();
+            block.update().unwrap();
+            block.begin_event();
+            everything_is_written(&block);
+
+            // Solvers ask for the derivatives alone.
+            for row in &STATES {
+                block.values.reals[row.derivative] = f64::NAN;
+            }
+            block.fresh = Fresh::Nothing;
+            let rates = block.derivatives().unwrap();
+            assert!(rates.iter().all(|rate| rate.is_finite()));
+        }
+    }
+}

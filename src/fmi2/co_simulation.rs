@@ -3,7 +3,7 @@
 #![allow(non_snake_case)]
 
 use super::{
-    common::elements,
+    arguments::{elements, fill, place, room},
     instance::{Instance, Message, Outcome, call, refuse},
     legality::Function,
     types::*,
@@ -101,6 +101,37 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
     unsafe { call(c, Function::fmi2SetRealInputDerivatives, body) }
 }
 
+/// # Safety
+/// As in the standard: `vr`, `order` and `value` have `nvr` elements.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
+    c: fmi2Component,
+    vr: *const fmi2ValueReference,
+    nvr: usize,
+    order: *const fmi2Integer,
+    value: *mut fmi2Real,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller.
+        let (vr, order, value) = unsafe {
+            (
+                elements(vr, nvr, "vr")?,
+                elements(order, nvr, "order")?,
+                room(value, nvr, "value")?,
+            )
+        };
+        if let Some(other) = order.iter().find(|order| **order != 1) {
+            return refuse(format!(
+                "order = {other}; this FMU has first derivatives of its outputs, pass 1"
+            ));
+        }
+        fill(value, instance.block.output_rates(vr)?);
+        Ok(())
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, Function::fmi2GetRealOutputDerivatives, body) }
+}
+
 // ------------------------------------------------------------------ status
 
 /// Answers a status of a kind that the function has, and refuses others. Steps end within
@@ -118,11 +149,8 @@ unsafe fn status<T>(
         let answer = answer(instance).ok_or_else(|| {
             Message::Error("there is no such status of this type; see fmi2StatusKind".into())
         })?;
-        if value.is_null() {
-            return refuse("value is a null pointer; pass a place for the answer".into());
-        }
-        // SAFETY: passed on from the caller; what stood there before is not looked at.
-        unsafe { value.write(answer) };
+        // SAFETY: passed on from the caller.
+        unsafe { place(value, "value")? }.write(answer);
         Ok(())
     };
     // SAFETY: passed on from the caller.

@@ -1,6 +1,7 @@
 //! One instance of the FMU, and the frame in which every function of the interface runs.
 
 use super::{
+    handle::{self, Marked},
     legality::{EVENT_MODE, Function, INITIALIZATION_MODE, Interface, STEP_COMPLETE, States},
     logger::{Category, Logger},
     types::{fmi2Component, fmi2Status},
@@ -23,6 +24,10 @@ pub struct Instance {
     /// What fmi2GetString handed out: valid until the next call, by value reference.
     pub strings: PerVariable<StringRef, CString, { STRINGS.len() }>,
     pub experiment: Experiment,
+}
+
+impl Marked for Instance {
+    const MARK: u64 = 0x726f_746f_7220_4f4b;
 }
 
 /// Time as the importer keeps it, s.
@@ -82,12 +87,14 @@ pub unsafe fn call(
     function: Function,
     body: impl FnOnce(&mut Instance) -> Outcome,
 ) -> fmi2Status {
-    let instance = component.cast::<Instance>();
-    if instance.is_null() {
+    // SAFETY: passed on from the caller.
+    let Some(instance) = (unsafe { handle::living::<Instance>(component) }) else {
+        // Without an instance there is no logger to tell.
         return fmi2Status::fmi2Error;
-    }
+    };
+    let instance = instance.as_ptr();
     let outcome = catch_unwind(AssertUnwindSafe(|| {
-        // SAFETY: not null, and by the contract above the only reference to a living instance. It
+        // SAFETY: by the contract above the only reference to a living instance. It
         // ends before the logger runs, which may call back into this library.
         let instance = unsafe { &mut *instance };
         function

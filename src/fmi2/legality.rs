@@ -6,7 +6,8 @@
 //! or refused within the call of fmi2DoStep.
 //!
 //! Where the tables have conditions on the variable, the block keeps them: what may be set when
-//! (`block::Stage`). fmi2SetTime in Event Mode is for FMUs without continuous states only.
+//! (`block::Stage`). The table allows fmi2SetTime in Event Mode to a "Pure Discrete-Time FMU" alone
+//! (condition 8), where it leads from one event to the next; this FMU has continuous states.
 
 use super::types::{FMI2_CO_SIMULATION, FMI2_MODEL_EXCHANGE, fmi2Enumeration};
 

@@ -1,6 +1,13 @@
-//! Messages to the importer, by the callback that it gave.
+//! Messages to the importer by its callback, and which of them it wants.
 
-use super::types::{fmi2CallbackLogger, fmi2ComponentEnvironment, fmi2Status};
+#![allow(non_snake_case)]
+
+use super::{
+    arguments::{elements, text},
+    instance::{Instance, Message, call},
+    legality::Function,
+    types::*,
+};
 use crate::block::variables::LOG_CATEGORIES;
 use std::ffi::CString;
 
@@ -55,4 +62,40 @@ impl Logger {
 /// A C string; a NUL inside, which C cannot hold, becomes a blank.
 pub fn printable(text: &str) -> CString {
     CString::new(text.replace('\0', " ")).unwrap_or_default()
+}
+
+/// # Safety
+/// As in the standard: `c` from fmi2Instantiate, `categories` with `nCategories` C strings.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2SetDebugLogging(
+    c: fmi2Component,
+    loggingOn: fmi2Boolean,
+    nCategories: usize,
+    categories: *const fmi2String,
+) -> fmi2Status {
+    let body = |instance: &mut Instance| {
+        let mut chosen = [false; LOG_CATEGORIES.len()];
+        let mut unknown = Vec::new();
+        // SAFETY: passed on from the caller.
+        for category in unsafe { elements(categories, nCategories, "categories")? } {
+            // SAFETY: passed on from the caller.
+            let name = unsafe { text(*category, "a category")? };
+            match LOG_CATEGORIES.iter().position(|known| *known == name) {
+                Some(place) => chosen[place] = true,
+                None => unknown.push(name),
+            }
+        }
+        instance.logger.logging_on = loggingOn != FMI2_FALSE;
+        instance.logger.chosen = (nCategories > 0).then_some(chosen);
+        if unknown.is_empty() {
+            return Ok(());
+        }
+        Err(Message::Warning(format!(
+            "there are no log categories {}; this FMU has {}",
+            unknown.join(", "),
+            LOG_CATEGORIES.join(", ")
+        )))
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(c, Function::fmi2SetDebugLogging, body) }
 }

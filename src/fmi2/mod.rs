@@ -1,22 +1,30 @@
 //! The C interface of FMI 2.0 (standard 2.0.5): the 44 functions of fmi2Functions.h and nothing
 //! else. No physics here.
 //!
-//! * `common.rs`: the functions that Co-Simulation and Model Exchange share: logging, instances, initialisation
-//! * `values.rs`: getting and setting values of variables
-//! * `state.rs`: getting, setting and serializing the complete state
-//! * `derivative.rs`: derivatives along a direction, and of outputs in time
+//! * `version.rs`, `creation.rs`, `life_cycle.rs`: the version; instances; from the experiment to the end
+//! * `get_set.rs`: getting and setting values of variables
+//! * `fmu_state.rs`: getting, setting and serializing the complete state
+//! * `directional.rs`: derivatives along a direction
 //! * `co_simulation.rs`, `model_exchange.rs`: the functions of one interface
+//! * `logger.rs`: messages to the importer
 //! * `legality.rs`: which function may be called in which state
 //! * `instance.rs`: one instance, and the frame in which every function runs
-//! * `types.rs`, `logger.rs`: the types of C, and messages to the importer
+//! * `handle.rs`: how instances and states are recognised behind the importer's pointers
+//! * `types.rs`, `arguments.rs`: the types of C, and what is behind its pointers
+//! * `resource_location.rs`: where the resources lie
 
+mod arguments;
 pub mod co_simulation;
-pub mod common;
-pub mod derivative;
+pub mod creation;
+pub mod directional;
+pub mod fmu_state;
+pub mod get_set;
+mod handle;
 mod instance;
 pub mod legality;
-mod logger;
+pub mod life_cycle;
+pub mod logger;
 pub mod model_exchange;
-pub mod state;
+mod resource_location;
 pub mod types;
-pub mod values;
+pub mod version;

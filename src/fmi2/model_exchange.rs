@@ -6,7 +6,7 @@
 #![allow(non_snake_case)]
 
 use super::{
-    common::{elements, elements_mut},
+    arguments::{elements, fill, place, room},
     instance::{Instance, Message, Outcome, call, refuse},
     legality::{CONTINUOUS_TIME_MODE, EVENT_MODE, Function},
     types::*,
@@ -36,9 +36,8 @@ pub unsafe extern "C" fn fmi2NewDiscreteStates(
     info: *mut fmi2EventInfo,
 ) -> fmi2Status {
     let body = |instance: &mut Instance| {
-        if info.is_null() {
-            return refuse("eventInfo is a null pointer; pass a place for the answer".into());
-        }
+        // SAFETY: passed on from the caller.
+        let info = unsafe { place(info, "eventInfo")? };
         instance.block.update()?;
         let answer = fmi2EventInfo {
             newDiscreteStatesNeeded: FMI2_FALSE,
@@ -48,8 +47,7 @@ pub unsafe extern "C" fn fmi2NewDiscreteStates(
             nextEventTimeDefined: FMI2_FALSE,
             nextEventTime: 0.0,
         };
-        // SAFETY: passed on from the caller; what stood there before is not looked at.
-        unsafe { info.write(answer) };
+        info.write(answer);
         Ok(())
     };
     // SAFETY: passed on from the caller.
@@ -79,18 +77,15 @@ pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
     terminateSimulation: *mut fmi2Boolean,
 ) -> fmi2Status {
     let body = |instance: &mut Instance| {
-        if enterEventMode.is_null() || terminateSimulation.is_null() {
-            return refuse(
-                "enterEventMode or terminateSimulation is a null pointer; pass places for the answers"
-                    .into(),
-            );
-        }
-        let has_event = instance.block.has_event()?;
-        // SAFETY: passed on from the caller; what stood there before is not looked at.
-        unsafe {
-            enterEventMode.write(has_event.into());
-            terminateSimulation.write(FMI2_FALSE);
-        }
+        // SAFETY: passed on from the caller.
+        let (event, end) = unsafe {
+            (
+                place(enterEventMode, "enterEventMode")?,
+                place(terminateSimulation, "terminateSimulation")?,
+            )
+        };
+        event.write(instance.block.has_event()?.into());
+        end.write(FMI2_FALSE);
         Ok(())
     };
     // SAFETY: passed on from the caller.
@@ -196,8 +191,8 @@ unsafe fn state_vector(
     let body = |instance: &mut Instance| {
         check_count(count, STATES.len(), "continuous states")?;
         // SAFETY: passed on from the caller.
-        let out = unsafe { elements_mut(out, count, "the vector for the answer")? };
-        out.copy_from_slice(&answer(instance)?);
+        let out = unsafe { room(out, count, "the vector for the answer")? };
+        fill(out, answer(instance)?);
         Ok(())
     };
     // SAFETY: passed on from the caller.

@@ -6,6 +6,7 @@ use crate::support::{
     instance::{bits, callbacks},
 };
 use helicopter_rotor::block::variables::{GUID, MODEL_IDENTIFIER};
+use roxmltree::Document;
 use std::{
     ffi::{CStr, CString, c_int},
     ptr,
@@ -76,8 +77,9 @@ fn another_type_gives_no_instance_and_says_why() {
 
 #[test]
 fn the_description_in_the_archive_has_the_guid_of_the_binary() {
-    let description = std::fs::read_to_string(Fmu::shared().folder.join("modelDescription.xml"));
-    assert!(description.unwrap().contains(&format!("guid=\"{GUID}\"")));
+    let text = Fmu::shared().description();
+    let description = Document::parse(&text).unwrap();
+    assert_eq!(description.root_element().attribute("guid"), Some(GUID));
 }
 
 #[test]

@@ -6,36 +6,32 @@ use crate::support::{
     instance::{bits, reference},
 };
 use helicopter_rotor::block::variables::{Causality, INTEGERS, REALS, STATES};
+use roxmltree::{Document, Node};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// The part of the description between a tag and its end.
-fn part<'a>(xml: &'a str, tag: &str) -> &'a str {
-    let (_, rest) = xml.split_once(&format!("<{tag}>")).unwrap();
-    rest.split_once(&format!("</{tag}>")).unwrap().0
-}
-
-fn attribute<'a>(line: &'a str, name: &str) -> &'a str {
-    let (_, rest) = line.split_once(&format!(" {name}=\"")).unwrap();
-    rest.split_once('"').unwrap().0
-}
-
 /// The names on which each unknown of a list depends.
-fn dependencies(tag: &str) -> BTreeMap<String, BTreeSet<String>> {
-    let folder = &Fmu::shared().folder;
-    let xml = std::fs::read_to_string(folder.join("modelDescription.xml")).unwrap();
-    let variables = part(&xml, "ModelVariables").lines();
-    let names: Vec<&str> = variables
-        .filter(|line| line.contains("<ScalarVariable "))
-        .map(|line| attribute(line, "name"))
-        .collect();
-    let unknowns = part(&xml, tag)
-        .lines()
-        .filter(|line| line.contains("<Unknown "));
-    let name = |index: &str| names[index.parse::<usize>().unwrap() - 1].to_owned();
+fn dependencies(list: &str) -> BTreeMap<String, BTreeSet<String>> {
+    let text = Fmu::shared().description();
+    let description = Document::parse(&text).unwrap();
+    let elements = |parent: &str, tag: &str| -> Vec<Node> {
+        let mut all = description.descendants();
+        let parent = all.find(|node| node.has_tag_name(parent)).unwrap();
+        parent
+            .children()
+            .filter(|node| node.has_tag_name(tag))
+            .collect()
+    };
+    let variables = elements("ModelVariables", "ScalarVariable");
+    let name = |index: &str| {
+        let variable = variables[index.parse::<usize>().unwrap() - 1];
+        variable.attribute("name").unwrap().to_owned()
+    };
+    let unknowns = elements(list, "Unknown").into_iter();
     unknowns
-        .map(|line| {
-            let known = attribute(line, "dependencies").split_whitespace();
-            (name(attribute(line, "index")), known.map(name).collect())
+        .map(|unknown| {
+            let knowns = unknown.attribute("dependencies").unwrap();
+            let knowns = knowns.split_whitespace().map(name).collect();
+            (name(unknown.attribute("index").unwrap()), knowns)
         })
         .collect()
 }

@@ -30,8 +30,8 @@ const MODEL_EXCHANGE: usize = 4;
 /// `x` legal; `-` illegal; `o` legal, but an option that this FMU does not offer; `M` a function
 /// of Model Exchange, `C` one of Co-Simulation.
 ///
-/// fmi2Instantiate makes another instance, which does not depend on the state of this one. fmi2SetTime in Event
-/// Mode (condition 8) is for FMUs without continuous states.
+/// fmi2Instantiate makes another instance, which does not depend on the state of this one. fmi2SetTime in
+/// Event Mode is for a "Pure Discrete-Time FMU" only (condition 8 of the table), which this one is not.
 const TABLE: &str = "
     fmi2GetTypesPlatform              xxxx xxxxx
     fmi2GetVersion                    xxxx xxxxx

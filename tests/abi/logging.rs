@@ -6,6 +6,7 @@ use crate::support::{
     instance::{callbacks, logger},
 };
 use helicopter_rotor::block::variables::{GUID, LOG_CATEGORIES};
+use roxmltree::Document;
 use std::{
     ffi::{CString, c_void},
     ptr,
@@ -183,14 +184,13 @@ fn errors_are_logged_also_while_logging_is_off() {
 
 #[test]
 fn only_declared_categories_are_used() {
-    let description = std::fs::read_to_string(Fmu::shared().folder.join("modelDescription.xml"));
-    let description = description.unwrap();
-    for category in LOG_CATEGORIES {
-        assert!(
-            description.contains(&format!("<Category name=\"{category}\"")),
-            "{category}"
-        );
-    }
+    let text = Fmu::shared().description();
+    let description = Document::parse(&text).unwrap();
+    let declared = description
+        .descendants()
+        .filter(|node| node.has_tag_name("Category"));
+    let declared: Vec<&str> = declared.flat_map(|node| node.attribute("name")).collect();
+    assert_eq!(declared, LOG_CATEGORIES);
     let instance = with_logging();
     assert_eq!(instance.step(0.0, 0.1), c::ERROR);
     assert_eq!(

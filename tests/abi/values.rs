@@ -7,6 +7,7 @@ use crate::support::{
     instance::{bits, reference},
 };
 use helicopter_rotor::block::variables::{BOOLEANS, Causality, INTEGERS, REALS, STRINGS};
+use roxmltree::Document;
 use std::ptr;
 
 /// All values of a running instance, on which a call is refused in between or not.
@@ -154,23 +155,27 @@ fn booleans_other_than_0_and_1_are_refused_with_the_choices() {
 
 #[test]
 fn booleans_have_the_start_values_of_the_description_and_can_be_set() {
-    let description = std::fs::read_to_string(Fmu::shared().folder.join("modelDescription.xml"));
-    let description = description.unwrap();
+    let text = Fmu::shared().description();
+    let description = Document::parse(&text).unwrap();
+    let rows = description
+        .descendants()
+        .filter(|node| node.has_tag_name("Boolean"));
+    let rows: Vec<_> = rows.map(|row| (row, row.parent().unwrap())).collect();
+    assert_eq!(rows.len(), BOOLEANS.len());
     let running = Instance::running();
-    for (i, v) in BOOLEANS.iter().enumerate() {
-        let row = format!("<ScalarVariable name=\"{}\" valueReference=\"{i}\"", v.name);
-        let (_, rest) = description.split_once(&row).expect(v.name);
+    for (i, (v, (row, variable))) in BOOLEANS.iter().zip(rows).enumerate() {
+        assert_eq!(variable.attribute("name"), Some(v.name));
+        let reference = i.to_string();
+        assert_eq!(
+            variable.attribute("valueReference"),
+            Some(reference.as_str())
+        );
         let start = match running.boolean(v.name) {
-            0 => "<Boolean start=\"false\"/>",
-            1 => "<Boolean start=\"true\"/>",
+            0 => "false",
+            1 => "true",
             other => panic!("{} = {other}", v.name),
         };
-        assert_eq!(
-            rest.lines().nth(1).map(str::trim),
-            Some(start),
-            "{}",
-            v.name
-        );
+        assert_eq!(row.attribute("start"), Some(start), "{}", v.name);
 
         let instance = Instance::new();
         for value in [1, 0, i32::from(!v.start)] {

@@ -120,6 +120,11 @@ impl Fmu {
         self.library.close().unwrap();
     }
 
+    /// modelDescription.xml.
+    pub fn description(&self) -> String {
+        fs::read_to_string(self.folder.join("modelDescription.xml")).unwrap()
+    }
+
     pub fn resources(&self) -> PathBuf {
         self.folder.join("resources")
     }

@@ -35,16 +35,14 @@ fn refusal(output: &Output) -> String {
 /// Name and values of each column.
 type Columns = Vec<(String, Vec<f64>)>;
 
-/// The columns of a CSV file with quoted names.
+/// The columns of a CSV file.
 fn columns(text: &str) -> Columns {
-    let mut lines = text.lines();
-    let names = lines.next().unwrap().split(',');
-    let mut columns: Vec<_> = names
-        .map(|name| (name.trim_matches('"').to_owned(), Vec::new()))
-        .collect();
-    for line in lines {
-        for (column, field) in columns.iter_mut().zip(line.split(',')) {
-            column.1.push(field.parse().unwrap());
+    let mut table = csv::Reader::from_reader(text.as_bytes());
+    let names = table.headers().unwrap().iter();
+    let mut columns: Columns = names.map(|name| (name.to_owned(), Vec::new())).collect();
+    for row in table.deserialize::<Vec<f64>>() {
+        for ((_, column), value) in columns.iter_mut().zip(row.unwrap()) {
+            column.push(value);
         }
     }
     columns
@@ -52,12 +50,17 @@ fn columns(text: &str) -> Columns {
 
 /// The inverse of `columns`.
 fn csv(columns: &[(String, Vec<f64>)]) -> String {
-    let join = |fields: Vec<String>| fields.join(",") + "\n";
-    let mut text = join(columns.iter().map(|(n, _)| format!("\"{n}\"")).collect());
+    let mut table = csv::WriterBuilder::new();
+    table.quote_style(csv::QuoteStyle::NonNumeric);
+    let mut table = table.from_writer(Vec::new());
+    table
+        .write_record(columns.iter().map(|(name, _)| name))
+        .unwrap();
     for row in 0..columns[0].1.len() {
-        text += &join(columns.iter().map(|(_, c)| c[row].to_string()).collect());
+        let fields = columns.iter().map(|(_, column)| column[row].to_string());
+        table.write_record(fields).unwrap();
     }
-    text
+    String::from_utf8(table.into_inner().unwrap()).unwrap()
 }
 
 fn largest(values: &[f64]) -> f64 {

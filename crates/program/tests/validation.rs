@@ -3,6 +3,7 @@
 
 mod support;
 
+use serde::Deserialize;
 use std::{
     fs,
     path::PathBuf,
@@ -23,7 +24,7 @@ fn run() -> &'static (Output, PathBuf) {
 }
 
 /// Errors of a quantity with a model in a case; angles in deg, others in %.
-#[derive(Debug)]
+#[derive(Debug, Deserialize)]
 struct Errors {
     case: String,
     quantity: String,
@@ -32,41 +33,20 @@ struct Errors {
     rms: f64,
 }
 
-/// The rows of errors.csv, whose texts are quoted where they have commas.
+/// The rows of errors.csv.
 fn errors() -> Vec<Errors> {
     let (output, folder) = run();
-    let text = fs::read_to_string(folder.join("errors.csv")).unwrap_or_else(|error| {
+    let table = csv::Reader::from_path(folder.join("errors.csv"));
+    let mut table = table.unwrap_or_else(|error| {
         panic!("{error}: {}", String::from_utf8_lossy(&output.stderr));
     });
-    let mut lines = text.lines();
     assert_eq!(
-        lines.next().unwrap(),
+        table.headers().unwrap(),
         "case,quantity,model,unit,points,mean,mean_absolute,rms,worst,scatter"
+            .split(',')
+            .collect::<Vec<_>>()
     );
-    let rows = lines.map(|line| {
-        let cells = cells(line);
-        Errors {
-            case: cells[0].clone(),
-            quantity: cells[1].clone(),
-            model: cells[2].clone(),
-            mean_absolute: cells[6].parse().unwrap(),
-            rms: cells[7].parse().unwrap(),
-        }
-    });
-    rows.collect()
-}
-
-fn cells(line: &str) -> Vec<String> {
-    let mut cells = vec![String::new()];
-    let mut quoted = false;
-    for letter in line.chars() {
-        match letter {
-            '"' => quoted = !quoted,
-            ',' if !quoted => cells.push(String::new()),
-            other => cells.last_mut().unwrap().push(other),
-        }
-    }
-    cells
+    table.deserialize().map(Result::unwrap).collect()
 }
 
 /// The rows of a quantity in the cases whose name begins so; at least one.

@@ -15,7 +15,8 @@
 #![allow(non_snake_case)]
 
 use super::{
-    common::{elements, elements_mut},
+    arguments::{self, elements, fill, place, room},
+    handle::{self, Marked},
     instance::{Experiment, Instance, Message, Outcome, call, refuse},
     legality::Function,
     legality::{
@@ -33,16 +34,7 @@ const VERSION: u32 = 1;
 const HEAD: usize = MAGIC.len() + 4 + GUID.len() + 8;
 const CHECKSUM: usize = 4;
 
-/// What stands before a living state and no longer before one that was freed.
-const ALIVE: u64 = 0x7374_6174_6520_4f4b;
-
-/// What an fmi2FMUstate points to.
-struct Handle {
-    mark: u64,
-    state: FmuState,
-}
-
-/// The state of an instance.
+/// The state of an instance; an fmi2FMUstate is a handle of one.
 #[derive(Debug, Clone, PartialEq)]
 struct FmuState {
     interface: Interface,
@@ -191,41 +183,53 @@ impl FmuState {
 
 // ------------------------------------------------------------------ pointers
 
+impl Marked for FmuState {
+    const MARK: u64 = 0x7374_6174_6520_4f4b;
+}
+
 /// The state behind a pointer.
 ///
 /// # Safety
-/// `pointer` is null or comes from this file and was not freed.
-unsafe fn living<'a>(pointer: fmi2FMUstate) -> Result<&'a mut Handle, Message> {
-    let handle = pointer.cast::<Handle>();
-    let foreign = "FMUstate points to no state of this FMU; pass one that was not freed";
-    if !handle.is_aligned() {
-        return Err(Message::Error(foreign.into()));
-    }
-    // SAFETY: by the contract above.
-    match unsafe { handle.as_mut() } {
-        None => Err(Message::Error(
+/// `pointer` is null, or comes from this file and was not freed.
+unsafe fn living<'a>(pointer: fmi2FMUstate) -> Result<&'a mut FmuState, Message> {
+    if pointer.is_null() {
+        return Err(Message::Error(
             "FMUstate is a null pointer; pass a state from fmi2GetFMUstate or fmi2DeSerializeFMUstate"
                 .into(),
-        )),
-        Some(handle) if handle.mark != ALIVE => Err(Message::Error(foreign.into())),
-        Some(handle) => Ok(handle),
+        ));
     }
+    // SAFETY: passed on from the caller.
+    let state = unsafe { handle::living(pointer) };
+    let mut state = state.ok_or_else(|| {
+        Message::Error(
+            "FMUstate points to no state of this FMU; pass one that was not freed".into(),
+        )
+    })?;
+    // SAFETY: a living state, and by the contract above nothing else refers to it.
+    Ok(unsafe { state.as_mut() })
+}
+
+/// The importer's variable for a state: null, or the state that it has there.
+///
+/// # Safety
+/// `place` is null or points to a pointer.
+unsafe fn variable<'a>(place: *mut fmi2FMUstate) -> Result<&'a mut fmi2FMUstate, Message> {
+    // SAFETY: passed on from the caller; by the contract above it is initialised.
+    Ok(unsafe { arguments::place(place, "FMUstate")?.assume_init_mut() })
 }
 
 /// Puts a state where an importer keeps it: over the one that it has there, else in new memory.
 ///
 /// # Safety
-/// `place` is null or may be written; `*place` as in `living`.
+/// As `variable`; `*place` as in `living`.
 unsafe fn store(place: *mut fmi2FMUstate, state: FmuState) -> Outcome {
-    // SAFETY: by the contract above.
-    let Some(pointer) = (unsafe { place.as_mut() }) else {
-        return refuse("FMUstate is a null pointer; pass a place for the state".into());
-    };
+    // SAFETY: passed on from the caller.
+    let pointer = unsafe { variable(place)? };
     if pointer.is_null() {
-        *pointer = Box::into_raw(Box::new(Handle { mark: ALIVE, state })).cast();
+        *pointer = handle::create(state);
     } else {
         // SAFETY: passed on from the caller.
-        unsafe { living(*pointer)? }.state = state;
+        *unsafe { living(*pointer)? } = state;
     }
     Ok(())
 }
@@ -252,7 +256,7 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, state: *mut fmi2FMUst
 pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, state: fmi2FMUstate) -> fmi2Status {
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
-        unsafe { living(state)? }.state.apply(instance)
+        unsafe { living(state)? }.apply(instance)
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2SetFMUstate, body) }
@@ -268,20 +272,18 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(
     state: *mut fmi2FMUstate,
 ) -> fmi2Status {
     let body = |_: &mut Instance| {
-        // SAFETY: passed on from the caller.
-        let Some(pointer) = (unsafe { state.as_mut() }) else {
+        if state.is_null() {
             return Ok(());
-        };
+        }
+        // SAFETY: passed on from the caller.
+        let pointer = unsafe { variable(state)? };
         if pointer.is_null() {
             return Ok(());
         }
-        // SAFETY: passed on from the caller; made by Box::into_raw in `store`. The mark is written in a way
-        // that the compiler keeps, so that a copy of the pointer is recognised as long as nobody else
-        // has the memory.
+        // SAFETY: passed on from the caller; `living` refuses what is no state.
         unsafe {
-            let handle = ptr::from_mut(living(*pointer)?);
-            (&raw mut (*handle).mark).write_volatile(0);
-            drop(Box::from_raw(handle));
+            living(*pointer)?;
+            handle::free::<FmuState>(*pointer);
         }
         *pointer = ptr::null_mut();
         Ok(())
@@ -299,11 +301,9 @@ pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
     size: *mut usize,
 ) -> fmi2Status {
     let body = |_: &mut Instance| {
-        if size.is_null() {
-            return refuse("size is a null pointer; pass a place for the answer".into());
-        }
         // SAFETY: passed on from the caller.
-        unsafe { size.write(living(state)?.state.to_bytes().len()) };
+        let (size, state) = unsafe { (place(size, "size")?, living(state)?) };
+        size.write(state.to_bytes().len());
         Ok(())
     };
     // SAFETY: passed on from the caller.
@@ -321,7 +321,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
 ) -> fmi2Status {
     let body = |_: &mut Instance| {
         // SAFETY: passed on from the caller.
-        let bytes = unsafe { living(state)? }.state.to_bytes();
+        let bytes = unsafe { living(state)? }.to_bytes();
         if size < bytes.len() {
             return refuse(format!(
                 "there is room for {size} bytes, but the state has {}; ask fmi2SerializedFMUstateSize",
@@ -329,8 +329,8 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
             ));
         }
         // SAFETY: passed on from the caller; a byte is a byte.
-        let out = unsafe { elements_mut(serializedState.cast::<u8>(), size, "serializedState")? };
-        out[..bytes.len()].copy_from_slice(&bytes);
+        let out = unsafe { room(serializedState.cast::<u8>(), bytes.len(), "serializedState")? };
+        fill(out, bytes);
         Ok(())
     };
     // SAFETY: passed on from the caller.

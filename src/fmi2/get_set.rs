@@ -3,7 +3,7 @@
 #![allow(non_snake_case)]
 
 use super::{
-    common::{elements, elements_mut, text},
+    arguments::{elements, room, text},
     instance::{Instance, Message, call},
     legality::{CONTINUOUS_TIME_MODE, Function, INITIALIZATION_MODE},
     logger::printable,
@@ -33,7 +33,7 @@ pub unsafe extern "C" fn fmi2GetReal(
 ) -> fmi2Status {
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
-        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
+        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, room(value, nvr, "value")?) };
         // The states have their values already, except in Initialization Mode.
         let is_initializing = instance.state == INITIALIZATION_MODE;
         let must_be_computed = |real: RealRef| {
@@ -43,7 +43,7 @@ pub unsafe extern "C" fn fmi2GetReal(
             instance.refresh()?;
         }
         for (reference, slot) in vr.iter().zip(value) {
-            *slot = instance.block.values().real(*reference)?;
+            slot.write(instance.block.values().real(*reference)?);
         }
         Ok(())
     };
@@ -62,7 +62,7 @@ pub unsafe extern "C" fn fmi2GetInteger(
 ) -> fmi2Status {
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
-        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
+        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, room(value, nvr, "value")?) };
         // Discrete variables keep their values in Continuous-Time Mode.
         let is_held = instance.state == CONTINUOUS_TIME_MODE;
         let is_computed = |integer: IntegerRef| integer.variable().causality.is_computed();
@@ -70,7 +70,7 @@ pub unsafe extern "C" fn fmi2GetInteger(
             instance.refresh()?;
         }
         for (reference, slot) in vr.iter().zip(value) {
-            *slot = instance.block.values().integer(*reference)?;
+            slot.write(instance.block.values().integer(*reference)?);
         }
         Ok(())
     };
@@ -89,9 +89,9 @@ pub unsafe extern "C" fn fmi2GetBoolean(
 ) -> fmi2Status {
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
-        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
+        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, room(value, nvr, "value")?) };
         for (reference, slot) in vr.iter().zip(value) {
-            *slot = instance.block.values().boolean(*reference)?.into();
+            slot.write(instance.block.values().boolean(*reference)?.into());
         }
         Ok(())
     };
@@ -110,7 +110,7 @@ pub unsafe extern "C" fn fmi2GetString(
 ) -> fmi2Status {
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
-        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements_mut(value, nvr, "value")?) };
+        let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, room(value, nvr, "value")?) };
         for (reference, slot) in vr.iter().zip(value) {
             let reference: StringRef = reference.reference()?;
             let kept = &mut instance.strings[reference];
@@ -119,7 +119,7 @@ pub unsafe extern "C" fn fmi2GetString(
             if kept.as_bytes() != present.as_bytes() {
                 *kept = printable(present);
             }
-            *slot = kept.as_ptr();
+            slot.write(kept.as_ptr());
         }
         Ok(())
     };

@@ -1,0 +1,106 @@
+//! Instances come and go: fmi2Functions.h, "Creation and destruction of FMU instances".
+
+#![allow(non_snake_case)]
+
+use super::{
+    arguments::text,
+    handle,
+    instance::{Experiment, Instance, Message},
+    legality::{INSTANTIATED, Interface},
+    logger::{Category, Logger, printable},
+    resource_location::resources,
+    types::*,
+};
+use crate::block::{
+    PerVariable, RotorBlock,
+    variables::{GUID, MODEL_IDENTIFIER},
+};
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    ptr,
+    sync::Once,
+};
+
+/// # Safety
+/// As in the standard: the strings and `functions` are null or live during the call.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2Instantiate(
+    instanceName: fmi2String,
+    fmuType: fmi2Enumeration,
+    fmuGUID: fmi2String,
+    fmuResourceLocation: fmi2String,
+    functions: *const fmi2CallbackFunctions,
+    _visible: fmi2Boolean,
+    loggingOn: fmi2Boolean,
+) -> fmi2Component {
+    keep_panics_silent();
+    let body = || {
+        // SAFETY: passed on from the caller. It is copied, whatever its alignment.
+        let callbacks = (!functions.is_null()).then(|| unsafe { functions.read_unaligned() });
+        // SAFETY: passed on from the caller.
+        let name = unsafe { text(instanceName, "instanceName") };
+        let name = name.ok().filter(|n| !n.is_empty());
+        let logger = Logger {
+            callback: callbacks.and_then(|f| f.logger),
+            environment: callbacks.map_or(ptr::null_mut(), |f| f.componentEnvironment),
+            instance_name: printable(name.unwrap_or(MODEL_IDENTIFIER)),
+            logging_on: loggingOn != FMI2_FALSE,
+            chosen: None,
+        };
+        // SAFETY: passed on from the caller.
+        let guid = unsafe { text(fmuGUID, "fmuGUID") };
+        let interface = match identity(fmuType, guid) {
+            Ok(interface) => interface,
+            Err(sentence) => {
+                let sentence = format!("fmi2Instantiate: {sentence}");
+                logger.log(fmi2Status::fmi2Error, Category::Error, &sentence);
+                return ptr::null_mut();
+            }
+        };
+        // SAFETY: passed on from the caller.
+        let location = unsafe { text(fmuResourceLocation, "fmuResourceLocation") }.ok();
+        let instance = Instance {
+            interface,
+            state: INSTANTIATED,
+            block: RotorBlock::new(resources(location)),
+            logger,
+            strings: PerVariable::new(Default::default()),
+            experiment: Experiment::default(),
+        };
+        handle::create(instance)
+    };
+    catch_unwind(AssertUnwindSafe(body)).unwrap_or(ptr::null_mut())
+}
+
+/// The interface that is asked of this FMU and no other.
+fn identity(kind: fmi2Enumeration, guid: Result<&str, Message>) -> Result<Interface, String> {
+    let guid = guid.map_err(|message| match message {
+        Message::Error(text) | Message::Warning(text) => text,
+    })?;
+    if guid.trim() != GUID {
+        return Err(format!(
+            "the GUID {guid:?} is not that of this binary, {GUID}; modelDescription.xml and binary must come from the same .fmu"
+        ));
+    }
+    Interface::from_type(kind).ok_or_else(|| {
+        format!("fmuType = {kind} is none; pass fmi2ModelExchange (0) or fmi2CoSimulation (1)")
+    })
+}
+
+/// # Safety
+/// As in the standard: `c` is null or comes from fmi2Instantiate and is not used afterwards.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
+    // Freeing is legal in every state that this FMU enters. Nobody is left to be told of a panic.
+    let _ = catch_unwind(|| {
+        // SAFETY: passed on from the caller.
+        unsafe { handle::free::<Instance>(c) };
+    });
+}
+
+/// Rust's standard panic hook prints; this library prints nothing and logs panics instead. The
+/// hook is this shared library's own: the importer's is another one.
+fn keep_panics_silent() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| std::panic::set_hook(Box::new(|_| {})));
+}
