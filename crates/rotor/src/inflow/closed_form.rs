@@ -82,8 +82,8 @@ pub fn solve<S: Scalar>(
         // Inflow angles are small only if the rotor turns. At standstill the theory has no load.
         return Ok(ClosedForm {
             load: SectionLoad::zero(),
-            induced: none,
-            mean_induced: none,
+            induced: zero,
+            mean_induced: zero,
         });
     }
     let flow = element.similarity(rotation);
