@@ -1,10 +1,11 @@
-//! Why the rotor of the PCA-2 autogiro (Wheatley 1934, NACA Report 487) has too little thrust at high advance ratios.
-//! tests/validation.rs holds it against all flight measurements; here is the cause.
+//! Why the rotor of the PCA-2 autogiro (Wheatley 1934, NACA Report 487) has too little thrust at
+//! high advance ratios. tests/validation.rs holds it against all flight measurements; here is the
+//! cause.
 //!
-//! Flown: rotors/pca-2.toml at the pitch of the report, in air of the tests' mean density (p. 13), at the
-//! measured rotor speed, at the shaft angle at which the mean torque is 0. Flapping with the report's
-//! inertia (p. 12), no offset (not known; the report neglects it), the weight of uniform blades, and the tip loss of
-//! the report's own analysis.
+//! Flown: rotors/pca-2.toml at the pitch of the report, in air of the tests' mean density (p. 13),
+//! at the measured rotor speed, at the shaft angle at which the mean torque is 0. Flapping with the
+//! report's inertia (p. 12), no offset (not known; the report neglects it), the weight of uniform
+//! blades, and the tip loss of the report's own analysis.
 
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
@@ -60,8 +61,8 @@ fn fly(rotor: &str, mu: f64, rpm: f64, alpha: f64) -> (f64, f64) {
     (torque, thrust)
 }
 
-/// The thrust coefficient at the shaft angle at which the torque vanishes, by bisection. The more the shaft leans back,
-/// the more the air drives the rotor.
+/// The thrust coefficient at the shaft angle at which the torque vanishes, by bisection. The more
+/// the shaft leans back, the more the air drives the rotor.
 fn autorotate(rotor: &str, mu: f64, rpm: f64) -> f64 {
     let (mut low, mut high) = (-0.1, 0.1);
     assert!(fly(rotor, mu, rpm, low).0 > 0.0 && fly(rotor, mu, rpm, high).0 < 0.0);
@@ -76,10 +77,10 @@ fn autorotate(rotor: &str, mu: f64, rpm: f64) -> f64 {
     fly(rotor, mu, rpm, low).1
 }
 
-/// Drag: the blades carried fittings and cables that the section's 0.0120 does not have, and drag must be driven by
-/// air from below, with thrust. With twice the drag the rotor without torque has the measured thrust at
-/// mu = 0.68. (Rep. 487's own calculation with the blades' parasite drag, p. 15, has more thrust and less rotor
-/// speed as well.)
+/// Drag: the blades carried fittings and cables that the section's 0.0120 does not have, and drag
+/// must be driven by air from below, with thrust. With twice the drag the rotor without torque has
+/// the measured thrust at mu = 0.68. (Rep. 487's own calculation with the blades' parasite drag, p.
+/// 15, has more thrust and less rotor speed as well.)
 #[test]
 fn the_thrust_that_is_missing_at_high_advance_ratio_is_a_matter_of_drag() {
     let resources = project().join("modelDescription/resources");

@@ -1,5 +1,5 @@
-//! The exact derivatives of the block where the model has corners: random flights with exact zeros and other places of
-//! corners, in all models, against one-sided differences to both sides.
+//! The exact derivatives of the block where the model has corners: random flights with exact zeros
+//! and other places of corners, in all models, against one-sided differences to both sides.
 
 mod support {
     pub mod block;
@@ -100,7 +100,8 @@ fn random_block(random: &mut Random) -> RotorBlock {
 fn random_flight(block: &mut RotorBlock, random: &mut Random) {
     let is_unloaded = random.one_in(4);
     if is_unloaded {
-        // A knot of the section's tables all along the blade, exactly: without inflow before the first step.
+        // A knot of the section's tables all along the blade, exactly: without inflow before the
+        // first step.
         set(block, real::COLLECTIVE, 0.0);
         choose(block, integer::INITIALIZATION, "rest");
         if block.values().integers[integer::MODELS__TIP_LOSS]
@@ -143,8 +144,9 @@ fn unknowns() -> Vec<RealRef> {
     all
 }
 
-/// The largest error of the exact derivatives along one known to one side, of which unknown: against the best of
-/// differences with several steps, each of the first and second order, as a part of its change.
+/// The largest error of the exact derivatives along one known to one side, of which unknown:
+/// against the best of differences with several steps, each of the first and second order, as a
+/// part of its change.
 fn worst(block: &mut RotorBlock, known: RealRef, side: f64) -> (f64, String) {
     let unknowns = unknowns();
     let exact = exact_along(block, &unknowns, known, side);
@@ -237,7 +239,8 @@ fn derivatives_at_known_corners() {
     block.start().unwrap();
     to_both_sides(&mut block, real::ALTITUDE);
 
-    // No lift in climb and descent: the closed form is mirrored there, and its slope is that at the Mach number.
+    // No lift in climb and descent: the closed form is mirrored there, and its slope is that at the
+    // Mach number.
     for climb in [0.0, 2.0, -2.0] {
         let mut block = default_block();
         choose(&mut block, integer::MODELS__INFLOW, "annulusClosedForm");
@@ -249,7 +252,8 @@ fn derivatives_at_known_corners() {
         to_both_sides(&mut block, real::COLLECTIVE);
     }
 
-    // A stopped rotor in wind along the disc: half of it meets the air from behind, at 180 deg exactly.
+    // A stopped rotor in wind along the disc: half of it meets the air from behind, at 180 deg
+    // exactly.
     let mut block = default_block();
     choose(&mut block, integer::MODELS__INFLOW, "uniform");
     set(&mut block, real::COLLECTIVE, 0.0);

@@ -17,8 +17,9 @@ use support::{
 /// Ways to hold the blades.
 const BLADES: [&str; 3] = ["automatic", "disc", "flapping"];
 
-/// How a derivative is differenced: with values on both sides, or from the side to which the exact one leads,
-/// where the model has corners (axial flow: speeds along the disc are magnitudes, and descent begins).
+/// How a derivative is differenced: with values on both sides, or from the side to which the exact
+/// one leads, where the model has corners (axial flow: speeds along the disc are magnitudes, and
+/// descent begins).
 #[derive(Clone, Copy, PartialEq)]
 enum Difference {
     Central,
@@ -69,8 +70,8 @@ const FLIGHTS: [Flight; 6] = [
         velocity: [3.0, 1.0, -5.0],
         difference: Difference::Central,
         step: 3e-4,
-        // Differences have errors of their own there: the curve's curvature jumps from piece to piece, and for
-        // dynamic inflow the mass flow's slope is a difference, with its rounding.
+        // Differences have errors of their own there: the curve's curvature jumps from piece to
+        // piece, and for dynamic inflow the mass flow's slope is a difference, with its rounding.
         bound: 1e-6,
         settings: |block| choose(block, integer::MODELS__DESCENT, "johnson"),
     },
@@ -186,8 +187,8 @@ fn differences(
     sums
 }
 
-/// The largest error of an exact derivative as a part of the unknown's largest derivative, each known by its
-/// scale, and of which it is.
+/// The largest error of an exact derivative as a part of the unknown's largest derivative, each
+/// known by its scale, and of which it is.
 fn worst(
     block: &mut RotorBlock,
     knowns: &[RealRef],
@@ -262,7 +263,8 @@ fn derivatives_by_tunable_parameters_are_those_of_differences() {
     }
 }
 
-/// In the tables of the default airfoil corners are everywhere, and small differences seldom meet one.
+/// In the tables of the default airfoil corners are everywhere, and small differences seldom meet
+/// one.
 #[test]
 fn derivatives_with_a_table_of_corners_are_those_of_small_differences() {
     for inflow in ["annulus", "uniform", "finiteBlades", "petersHe"] {
@@ -303,7 +305,8 @@ fn derivatives_at_the_start_are_those_of_differences() {
             block.update().unwrap();
             let (error, which) = worst(&mut block, &knowns, flight.difference, 3e-4);
             let case = format!("{inflow}, {blades}, {}", flight.name);
-            // The start is found to 1e-10 of the tip speed, which the differences divide by their steps.
+            // The start is found to 1e-10 of the tip speed, which the differences divide by their
+            // steps.
             assert!(error < 5e-5, "{case}: {error:.1e}, {which}");
         }
     }

@@ -1,5 +1,5 @@
-//! Vertical descent through the vortex ring and the turbulent wake to the windmill. tests/validation.rs holds it
-//! against measurements.
+//! Vertical descent through the vortex ring and the turbulent wake to the windmill.
+//! tests/validation.rs holds it against measurements.
 
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
@@ -33,8 +33,8 @@ fn descending(block: &mut RotorBlock, speed: f64, place: RealRef) -> f64 {
     block.values().reals[place]
 }
 
-/// In climb and hover nothing depends on the law of descent (but where single annuli pull down: their climb is
-/// a descent).
+/// In climb and hover nothing depends on the law of descent (but where single annuli pull down:
+/// their climb is a descent).
 #[test]
 fn climb_and_hover_are_momentum_theory_with_every_law() {
     for (inflow, climb) in [
@@ -150,12 +150,12 @@ fn the_state_of_the_flow_goes_through_its_names_in_descent() {
     }
 }
 
-/// In time, from hover to the windmill and back in a minute: no step of 20 ms changes the thrust by more than a
-/// smooth way through would, and the thrust does not go up and down.
+/// In time, from hover to the windmill and back in a minute: no step of 20 ms changes the thrust by
+/// more than a smooth way through would, and the thrust does not go up and down.
 #[test]
 fn nothing_chatters_on_the_way_through_the_vortex_ring() {
-    // Per step, and turns of the whole way there and back; the many states of Peters & He swing as they enter
-    // the vortex ring.
+    // Per step, and turns of the whole way there and back; the many states of Peters & He swing as
+    // they enter the vortex ring.
     for (inflow, change, most_turns) in [
         ("annulus", 0.005, 5),
         ("pittPetersDynamic", 0.005, 13),

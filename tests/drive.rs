@@ -49,8 +49,8 @@ fn the_torque_that_the_rotor_absorbs_keeps_its_speed() {
     }
 }
 
-/// J dOmega/dt = torque in next to no air: the speed grows linearly, the azimuth by half its square, and the hub
-/// feels the torque that drives.
+/// J dOmega/dt = torque in next to no air: the speed grows linearly, the azimuth by half its
+/// square, and the hub feels the torque that drives.
 #[test]
 fn torque_accelerates_the_inertia() {
     let mut rotor = block(
@@ -131,13 +131,13 @@ fn wind_from_below_turns_a_rotor_without_an_engine() {
     );
 }
 
-/// The PCA-2 autogiro (Wheatley 1934, NACA Report 487, fig. 7) without an engine, at the measured speed along
-/// the disc and with the measured thrust, which the angle of the shaft is for: the speed at which the
-/// rotor settles is the measured one within 8 % to mu = 0.4.
+/// The PCA-2 autogiro (Wheatley 1934, NACA Report 487, fig. 7) without an engine, at the measured
+/// speed along the disc and with the measured thrust, which the angle of the shaft is for: the
+/// speed at which the rotor settles is the measured one within 8 % to mu = 0.4.
 ///
-/// What is left is thrust: rotor speed goes with sqrt(T/CT), and at mu = 0.52 and 0.68 the CT of the model's
-/// rotor without torque is too low at the measured mu. The cause is drag that the assumed section does not
-/// have; tests/autogiro.rs shows it.
+/// What is left is thrust: rotor speed goes with sqrt(T/CT), and at mu = 0.52 and 0.68 the CT of
+/// the model's rotor without torque is too low at the measured mu. The cause is drag that the
+/// assumed section does not have; tests/autogiro.rs shows it.
 #[test]
 fn an_autogiro_without_an_engine_turns_as_fast_as_measured() {
     let rotor = |rpm: f64, edgewise: f64, alpha: f64| {
@@ -216,8 +216,8 @@ fn an_autogiro_without_an_engine_turns_as_fast_as_measured() {
     }
 }
 
-/// Cheeseman & Bennett: at the same power the thrust grows by 1/(1 - (R/(4 z))^2). The ideal rotor (uniform inflow, no
-/// drag) shows it as it stands.
+/// Cheeseman & Bennett: at the same power the thrust grows by 1/(1 - (R/(4 z))^2). The ideal rotor
+/// (uniform inflow, no drag) shows it as it stands.
 #[test]
 fn thrust_near_the_ground_at_the_same_power() {
     for (model, inflow) in [
@@ -233,7 +233,8 @@ fn thrust_near_the_ground_at_the_same_power() {
             ],
             &[],
         );
-        // Power that the thrust gives to the air it passes, T v, of which the ground leaves its part.
+        // Power that the thrust gives to the air it passes, T v, of which the ground leaves its
+        // part.
         let mut ideal = |height: f64, collective: f64| {
             set(&mut rotor, real::HEIGHT_ABOVE_GROUND, height * 0.762);
             set(&mut rotor, real::COLLECTIVE, collective);
@@ -266,7 +267,8 @@ fn thrust_near_the_ground_at_the_same_power() {
     }
 }
 
-/// Every inflow model gains thrust near the ground, without a jump in height, and hardly in fast flight.
+/// Every inflow model gains thrust near the ground, without a jump in height, and hardly in fast
+/// flight.
 #[test]
 fn every_inflow_model_feels_the_ground() {
     for inflow in integer::MODELS__INFLOW.variable().choices {

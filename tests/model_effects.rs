@@ -1,5 +1,6 @@
-//! Every choice of a model has an effect: with each inflow model, any two items of each `models.*` enumeration differ in
-//! thrust or torque somewhere in a small set of flights, except where the documentation says that they cannot.
+//! Every choice of a model has an effect: with each inflow model, any two items of each `models.*`
+//! enumeration differ in thrust or torque somewhere in a small set of flights, except where the
+//! documentation says that they cannot.
 
 mod support {
     pub mod block;
@@ -12,7 +13,8 @@ use support::block::{choose, default_block, get, set};
 /// A flight as changes of the default inputs.
 type Flight = &'static [(RealRef, f64)];
 
-/// Hover, climb, the vortex ring, forward flight with cyclic pitch, hover near the ground and a fast tip.
+/// Hover, climb, the vortex ring, forward flight with cyclic pitch, hover near the ground and a
+/// fast tip.
 const FLIGHTS: [Flight; 6] = [
     &[],
     &[(real::VELOCITY_3, 4.0)],
@@ -37,8 +39,9 @@ const SAME_WITH_ALL: [(&str, &str, &str); 2] = [
     ("models.blades", "automatic", "individual"),
 ];
 
-/// Variables that have no effect in `annulusClosedForm`, which holds for axial flow in free air only: its description says
-/// that it is always computed as a disc, by momentum theory, and ground effect is refused.
+/// Variables that have no effect in `annulusClosedForm`, which holds for axial flow in free air
+/// only: its description says that it is always computed as a disc, by momentum theory, and ground
+/// effect is refused.
 const WITHOUT_EFFECT_IN_CLOSED_FORM: [&str; 3] =
     ["models.blades", "models.descent", "models.groundEffect"];
 

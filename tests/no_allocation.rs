@@ -1,4 +1,5 @@
-//! A running simulation allocates no memory: setting and reading numbers, steps, states and derivatives.
+//! A running simulation allocates no memory: setting and reading numbers, steps, states and
+//! derivatives.
 
 use helicopter_rotor::{
     block::variables::{GUID, STATES, boolean, integer, real},

@@ -1,5 +1,5 @@
-//! The rotors that travel in the FMU: each is read and hovers, and those that were measured in hover are
-//! compared with the measurement (Knight & Hefner's in FMPy: `importers`).
+//! The rotors that travel in the FMU: each is read and hovers, and those that were measured in
+//! hover are compared with the measurement (Knight & Hefner's in FMPy: `importers`).
 
 use helicopter_rotor::block::{
     RotorBlock,
@@ -59,8 +59,9 @@ fn every_rotor_hovers() {
     assert!(count >= 6);
 }
 
-/// Castles & Gray's hover tests (NACA TN 2474, Table V). Repeated runs differ by up to 20 % below CT =
-/// 0.0025, so single points are compared above it; at 12 deg the blades stall, and 18 % too much is computed.
+/// Castles & Gray's hover tests (NACA TN 2474, Table V). Repeated runs differ by up to 20 % below
+/// CT = 0.0025, so single points are compared above it; at 12 deg the blades stall, and 18 % too
+/// much is computed.
 #[test]
 fn castles_and_grays_rotor_has_the_measured_thrust_in_hover() {
     let rows = measured(
@@ -106,9 +107,9 @@ fn castles_and_grays_thrust_is_within_5_per_cent_in_the_mean() {
     assert!(magnitudes.len() == 15 && mean < 0.05, "{mean}");
 }
 
-/// NACA TN 626, p. 14: "The blade plan form was straight" and "the blade tip in cross section was semicircular", so
-/// that the plan is rounded by half the section's thickness, 0.15 in, and no more. A tip that is semicircular
-/// in plan takes nearly 2 % of the torque away.
+/// NACA TN 626, p. 14: "The blade plan form was straight" and "the blade tip in cross section was
+/// semicircular", so that the plan is rounded by half the section's thickness, 0.15 in, and no
+/// more. A tip that is semicircular in plan takes nearly 2 % of the torque away.
 #[test]
 fn knight_and_hefners_blades_are_straight_up_to_the_edge_of_the_tip() {
     for blades in [3, 4] {
@@ -140,8 +141,8 @@ fn knight_and_hefners_blades_are_straight_up_to_the_edge_of_the_tip() {
     }
 }
 
-/// The polar with drag by Reynolds number is the measured one where it was measured; its lift is that
-/// everywhere, and its drag falls with the Reynolds number.
+/// The polar with drag by Reynolds number is the measured one where it was measured; its lift is
+/// that everywhere, and its drag falls with the Reynolds number.
 #[test]
 fn the_measured_polar_stays_in_the_one_with_drag_by_reynolds_number() {
     let blocks = |name: &str| -> Vec<(f64, Vec<[f64; 3]>)> {
@@ -179,8 +180,8 @@ fn the_measured_polar_stays_in_the_one_with_drag_by_reynolds_number() {
     }
 }
 
-/// Caradonna & Tung (NASA TM-81232, figs. 3 to 5): annuli are known to give too much thrust on blades of
-/// aspect ratio 6. This is a regression test of how much.
+/// Caradonna & Tung (NASA TM-81232, figs. 3 to 5): annuli are known to give too much thrust on
+/// blades of aspect ratio 6. This is a regression test of how much.
 #[test]
 fn caradonna_and_tungs_rotor_has_too_much_thrust_as_annuli_are_known_to_give() {
     let rows = measured(

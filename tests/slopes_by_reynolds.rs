@@ -1,4 +1,5 @@
-//! The thesis' lift slopes, stall angles and drag polynomials through the block, as a user sets them.
+//! The thesis' lift slopes, stall angles and drag polynomials through the block, as a user sets
+//! them.
 
 use helicopter_rotor::block::{
     RotorBlock,

@@ -1,10 +1,11 @@
-//! Every combination of the models, flown: each flight is finite or ends in one clear error, and the same
-//! flight gives the same bits again.
+//! Every combination of the models, flown: each flight is finite or ends in one clear error, and
+//! the same flight gives the same bits again.
 //!
-//! The enumerations, their values and the switches are read from the table of variables, so that a model
-//! that is added to it is flown as well. All combinations of those that shape the solution fly once, in a
-//! flight and with the other choices of a sequence that spreads evenly, so that each pair of values meets
-//! hundreds of times; and all flights are flown with each inflow model, with and without flapping.
+//! The enumerations, their values and the switches are read from the table of variables, so that a
+//! model that is added to it is flown as well. All combinations of those that shape the solution
+//! fly once, in a flight and with the other choices of a sequence that spreads evenly, so that each
+//! pair of values meets hundreds of times; and all flights are flown with each inflow model, with
+//! and without flapping.
 
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
@@ -55,7 +56,8 @@ const LEVELS: [usize; 9] = [
     TORQUE.len(),
 ];
 
-/// The choices that shape the solution; those that only shape the sections or the frame are not among them.
+/// The choices that shape the solution; those that only shape the sections or the frame are not
+/// among them.
 const STRUCTURE: [&str; 8] = [
     "models.inflow",
     "models.blades",
@@ -67,8 +69,8 @@ const STRUCTURE: [&str; 8] = [
     "initialization",
 ];
 
-/// Largest share, in percent, of the flights for which no steady state is found, and of all that have no
-/// solution.
+/// Largest share, in percent, of the flights for which no steady state is found, and of all that
+/// have no solution.
 const MOST_WITHOUT_STEADY_STATE: f64 = 0.25;
 const MOST_WITHOUT_SOLUTION: f64 = 0.3;
 
@@ -135,7 +137,8 @@ impl Choice {
     }
 }
 
-/// All combinations of the values of some choices: the place of each in the number of the combination.
+/// All combinations of the values of some choices: the place of each in the number of the
+/// combination.
 fn digits(mut number: usize, counts: impl Iterator<Item = usize>) -> Vec<usize> {
     let mut next = |count: usize| {
         let digit = number % count;
@@ -145,10 +148,10 @@ fn digits(mut number: usize, counts: impl Iterator<Item = usize>) -> Vec<usize> 
     counts.map(&mut next).collect()
 }
 
-/// Point `number` of a sequence that spreads evenly in all of its coordinates and in their pairs: multiples
-/// of powers of the root of x^24 = x + 1 without their whole parts (Roberts' generalisation of the golden
-/// section). Every arithmetic progression of its points spreads evenly as well, so that it goes well with
-/// the digits of the same number.
+/// Point `number` of a sequence that spreads evenly in all of its coordinates and in their pairs:
+/// multiples of powers of the root of x^24 = x + 1 without their whole parts (Roberts'
+/// generalisation of the golden section). Every arithmetic progression of its points spreads evenly
+/// as well, so that it goes well with the digits of the same number.
 fn spread(number: usize, coordinate: usize) -> f64 {
     let root: f64 = (0..60).fold(1.1, |x, _| (1.0 + x).powf(1.0 / 24.0));
     (0.5 + number as f64 * root.powi(-1 - coordinate as i32)).fract()
@@ -209,7 +212,8 @@ impl Sweep {
         }
     }
 
-    /// Every combination of the structure, each with one flight and the other choices of the sequence.
+    /// Every combination of the structure, each with one flight and the other choices of the
+    /// sequence.
     fn combinations(&self) -> usize {
         self.structure().map(|c| c.count()).product()
     }
@@ -300,8 +304,8 @@ impl Sweep {
         texts.join(", ")
     }
 
-    /// Whether the parameters are documented to be refused: blades that flap as a mean over a turn or in
-    /// the closed form.
+    /// Whether the parameters are documented to be refused: blades that flap as a mean over a turn
+    /// or in the closed form.
     fn expected_refusal(&self, run: &Run) -> bool {
         let has = |name: &str, value: &str| self.has(run, name, value);
         let flaps = has(boolean::FLAPPING__ENABLED.variable().name, "true");

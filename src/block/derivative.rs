@@ -37,13 +37,15 @@ pub enum DerivativeError {
 }
 
 impl RotorBlock {
-    /// The derivatives of what is computed (outputs, stations, derivatives of the states) along a direction that
-    /// `knowns` (inputs, states, tunable parameters) take with the seeds `along`: for each unknown the sum of
-    /// (d unknown/d known) times seed, unit of the unknown. At the present inputs and states; while the block is
-    /// configured, with the states that the start finds, which move with the inputs. At a corner of a table or of
-    /// the model, the one-sided derivative towards the side to which the direction leads; within rounding of one,
-    /// that of either side. Where a value jumps, at the standstill of the rotor or of all air, the derivative knows
-    /// nothing of what lies beyond: coefficients and induced velocity of a rotor at rest stay 0. All or nothing.
+    /// The derivatives of what is computed (outputs, stations, derivatives of the states) along a
+    /// direction that `knowns` (inputs, states, tunable parameters) take with the seeds `along`:
+    /// for each unknown the sum of (d unknown/d known) times seed, unit of the unknown. At the
+    /// present inputs and states; while the block is configured, with the states that the start
+    /// finds, which move with the inputs. At a corner of a table or of the model, the one-sided
+    /// derivative towards the side to which the direction leads; within rounding of one, that of
+    /// either side. Where a value jumps, at the standstill of the rotor or of all air, the
+    /// derivative knows nothing of what lies beyond: coefficients and induced velocity of a rotor
+    /// at rest stay 0. All or nothing.
     pub fn directional_derivative(
         &mut self,
         unknowns: &[impl Names<RealRef>],
@@ -75,8 +77,8 @@ impl RotorBlock {
         changes(reals, unknowns, knowns.map(|known| known.variable().name))
     }
 
-    /// The derivatives of outputs in time, per second, at the present, as a step ends there: with the states' own
-    /// rates, and with those of the inputs in the last step. All or nothing.
+    /// The derivatives of outputs in time, per second, at the present, as a step ends there: with
+    /// the states' own rates, and with those of the inputs in the last step. All or nothing.
     pub fn output_rates(
         &mut self,
         outputs: &[impl Names<RealRef>],
@@ -100,7 +102,8 @@ impl RotorBlock {
         changes(reals, outputs, ["time"].into_iter())
     }
 
-    /// Replaces the computed variables in `reals` by what the inputs, states and parameters in it make of them.
+    /// Replaces the computed variables in `reals` by what the inputs, states and parameters in it
+    /// make of them.
     fn respond_along(&mut self, reals: &mut Reals<Dual64>) -> Result<(), DerivativeError> {
         if self.stage == Stage::Configuring {
             self.update()?;
@@ -121,7 +124,8 @@ impl RotorBlock {
         Ok(())
     }
 
-    /// The states at an operating point: those among `reals` or, while the block is configured, those of the start.
+    /// The states at an operating point: those among `reals` or, while the block is configured,
+    /// those of the start.
     fn state_along(
         &mut self,
         rotor: &Rotor,

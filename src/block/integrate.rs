@@ -1,11 +1,11 @@
 //! Time integration of the rotor's states.
 //!
-//! Steps of the rotor on a grid of azimuth that begins where the simulation does, and anew where the
-//! inputs change. A communication point between two grid points is met exactly, by a shorter step from
-//! the grid point before; the next step goes on from that grid point, not from the communication point,
-//! as long as the inputs stay the same. So constant inputs give the same answer, to the rounding of
-//! times, whatever the communication step. Inputs that move within a communication step begin a grid of their
-//! own at its beginning.
+//! Steps of the rotor on a grid of azimuth that begins where the simulation does, and anew where
+//! the inputs change. A communication point between two grid points is met exactly, by a shorter
+//! step from the grid point before; the next step goes on from that grid point, not from the
+//! communication point, as long as the inputs stay the same. So constant inputs give the same
+//! answer, to the rounding of times, whatever the communication step. Inputs that move within a
+//! communication step begin a grid of their own at its beginning.
 
 use rotor::{Drive, OperatingPoint, Rotor, SolveError, State, Workspace};
 
@@ -48,7 +48,8 @@ pub const LONGEST_CELL: f64 = 0.02;
 /// Maximum number of steps within one communication step.
 const MAX_STEPS: u32 = 100_000;
 
-/// Change of the states within a step below which they have settled, as a fraction of the speeds in the problem.
+/// Change of the states within a step below which they have settled, as a fraction of the speeds in
+/// the problem.
 const SETTLED: f64 = 1e-15;
 
 /// The same, m/s, for a stopped rotor in still air, whose wake dies away ever more slowly.
@@ -151,8 +152,9 @@ impl Integration<'_> {
         }
     }
 
-    /// The states after a stretch, in steps that are short enough for the states' fastest rate at its beginning and, where
-    /// inputs move, at its end; none if that makes more than `MAX_STEPS` in all.
+    /// The states after a stretch, in steps that are short enough for the states' fastest rate at
+    /// its beginning and, where inputs move, at its end; none if that makes more than `MAX_STEPS`
+    /// in all.
     fn integrate<F: FnMut(f64) -> OperatingPoint>(
         &mut self,
         inputs: &mut Inputs<F>,

@@ -144,8 +144,9 @@ impl RotorBlock {
         Ok(())
     }
 
-    /// Sets the derivatives in time of inputs, per second: all, or none if one is refused. They hold for the
-    /// next step, in which the inputs move linearly from their values; after it the inputs stand at its end.
+    /// Sets the derivatives in time of inputs, per second: all, or none if one is refused. They
+    /// hold for the next step, in which the inputs move linearly from their values; after it the
+    /// inputs stand at its end.
     pub fn set_input_slopes(
         &mut self,
         names: &[impl Names<RealRef>],
@@ -206,14 +207,14 @@ impl RotorBlock {
         self.fresh = Fresh::Nothing;
     }
 
-    /// What was read from which file, and whether the flow went beyond what was read, since the last
-    /// call.
+    /// What was read from which file, and whether the flow went beyond what was read, since the
+    /// last call.
     pub fn take_notes(&mut self) -> Vec<String> {
         std::mem::take(&mut self.notes)
     }
 
-    /// Makes the outputs those of the present inputs, parameters and states. While the block is being
-    /// configured, the states are those of the start.
+    /// Makes the outputs those of the present inputs, parameters and states. While the block is
+    /// being configured, the states are those of the start.
     pub fn update(&mut self) -> Result<(), BlockError> {
         if self.fresh == Fresh::All {
             return Ok(());
@@ -234,8 +235,8 @@ impl RotorBlock {
         self.publish(&condition, memory)
     }
 
-    /// Moves on by `duration` s (> 0). During it the inputs are constant, or move by the derivatives that were
-    /// set. If that fails, states, inputs and outputs keep their values.
+    /// Moves on by `duration` s (> 0). During it the inputs are constant, or move by the
+    /// derivatives that were set. If that fails, states, inputs and outputs keep their values.
     pub fn step(&mut self, duration: f64) -> Result<(), BlockError> {
         if self.ramp.is_moving() {
             return self.step_with_moving_inputs(duration);
@@ -299,7 +300,8 @@ impl RotorBlock {
 
     // ------------------------------------------------------------ integration by the importer
 
-    /// The continuous states in the order of `STATES`; those of the start while the block is being configured.
+    /// The continuous states in the order of `STATES`; those of the start while the block is being
+    /// configured.
     pub fn states(&mut self) -> Result<StateVector, BlockError> {
         if self.stage == Stage::Configuring {
             self.update()?;
@@ -316,7 +318,8 @@ impl RotorBlock {
         let references = STATES.map(|row| row.value);
         let (fresh, before) = (self.fresh, self.memory.state);
         self.set_reals(&references, states)?;
-        // Solvers move each state by itself for their Jacobian; one that does not count leaves what is computed valid.
+        // Solvers move each state by itself for their Jacobian; one that does not count leaves what
+        // is computed valid.
         let is_driven = self.values.integers[integer::DRIVE__MODE] == DriveMode::Torque as i32;
         let is_same = |rotor: &Arc<Rotor>| {
             rotor.used(is_driven, &before) == rotor.used(is_driven, &self.memory.state)
@@ -327,7 +330,8 @@ impl RotorBlock {
         Ok(())
     }
 
-    /// The derivatives of the continuous states in time, per second, for the present inputs and states.
+    /// The derivatives of the continuous states in time, per second, for the present inputs and
+    /// states.
     pub fn derivatives(&mut self) -> Result<StateVector, BlockError> {
         self.update_derivatives()?;
         Ok(STATES.map(|row| self.values.reals[row.derivative]))
@@ -352,7 +356,8 @@ impl RotorBlock {
         Ok(())
     }
 
-    /// From here on the importer integrates: it sets the states, and what is discrete keeps its values.
+    /// From here on the importer integrates: it sets the states, and what is discrete keeps its
+    /// values.
     pub fn begin_integration(&mut self) -> Result<(), BlockError> {
         self.update()?;
         self.stage = Stage::Integrating;
@@ -365,7 +370,8 @@ impl RotorBlock {
         Ok(self.values.integers[integer::FLOW_STATE] != self.flow_state)
     }
 
-    /// Ends an integration by the importer: discrete variables follow, and tunable parameters may be set.
+    /// Ends an integration by the importer: discrete variables follow, and tunable parameters may
+    /// be set.
     pub fn begin_event(&mut self) {
         self.stage = Stage::Running;
         if self.fresh == Fresh::All {
@@ -395,7 +401,8 @@ impl RotorBlock {
         BlockError::Unsolved(error, inputs(&self.values))
     }
 
-    /// Computes the outputs in a flight condition and takes them and the states over, if all are finite.
+    /// Computes the outputs in a flight condition and takes them and the states over, if all are
+    /// finite.
     fn publish(&mut self, condition: &FlightCondition, memory: Memory) -> Result<(), BlockError> {
         let mut reals = self.values.reals;
         let rotor = self.rotor()?;
@@ -458,8 +465,8 @@ mod tests {
 
     const RESOURCES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/resources");
 
-    /// A quarter to a half of a solver's calls are for columns of its Jacobian that belong to states which do not
-    /// count. They cost nothing, and all others are computed.
+    /// A quarter to a half of a solver's calls are for columns of its Jacobian that belong to
+    /// states which do not count. They cost nothing, and all others are computed.
     #[test]
     fn only_states_that_count_make_the_derivatives_anew() -> Result<(), Box<dyn std::error::Error>>
     {

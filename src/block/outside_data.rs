@@ -10,8 +10,8 @@ pub struct OutsideDataNotice {
 }
 
 impl OutsideDataNotice {
-    /// The sentence for these loads, if it has not been logged before: at most one on Reynolds and one on Mach numbers.
-    /// Allocates only for a sentence.
+    /// The sentence for these loads, if it has not been logged before: at most one on Reynolds and
+    /// one on Mach numbers. Allocates only for a sentence.
     pub fn next(&mut self, rotor: &Rotor, blade: &BladeLoads) -> Option<String> {
         for (axis, is_said) in [
             (Axis::Reynolds, &mut self.reynolds),

@@ -39,8 +39,9 @@ impl RotorBlock {
         }
     }
 
-    /// Goes on from a copy, also from another block's. If its fixed parameters differ from those of this block,
-    /// the rotor is made anew from the files that they name; if that fails, nothing has changed.
+    /// Goes on from a copy, also from another block's. If its fixed parameters differ from those of
+    /// this block, the rotor is made anew from the files that they name; if that fails, nothing has
+    /// changed.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), BlockError> {
         let is_same = have_equal_shape(&self.values, &snapshot.values);
         if snapshot.stage == Stage::Configuring {
@@ -81,8 +82,8 @@ impl Snapshot {
         self.stage
     }
 
-    /// Appends the copy as bytes, the same on every platform: numbers in little-endian order, texts with their
-    /// length before them.
+    /// Appends the copy as bytes, the same on every platform: numbers in little-endian order, texts
+    /// with their length before them.
     pub fn write(&self, out: &mut Vec<u8>) {
         let mut reals = |values: &[f64]| {
             values
@@ -121,8 +122,8 @@ impl Snapshot {
         }
     }
 
-    /// Reads what `write` wrote. Bytes that no block can have written are refused: values that are out of their
-    /// ranges, not finite or that contradict each other.
+    /// Reads what `write` wrote. Bytes that no block can have written are refused: values that are
+    /// out of their ranges, not finite or that contradict each other.
     pub fn read(reader: &mut Reader) -> Result<Self, DecodeError> {
         let mut values = Values {
             reals: Reals::new(reader.reals()?),
@@ -285,7 +286,8 @@ fn operation_to_numbers(operation: &OperatingPoint) -> [f64; OPERATION] {
     ]
 }
 
-/// What `operation_to_numbers` made numbers of. The block only compares it with the present operation.
+/// What `operation_to_numbers` made numbers of. The block only compares it with the present
+/// operation.
 fn operation_from_numbers(numbers: &[f64; OPERATION]) -> Result<OperatingPoint, DecodeError> {
     let vector = |first: usize| Vector3::from_column_slice(&numbers[first..first + 3]);
     let drive = match numbers[15] {

@@ -176,7 +176,8 @@ impl Values {
         Ok(())
     }
 
-    /// Takes the derivatives in time of inputs, or none if one is refused, into `slopes`, by value reference.
+    /// Takes the derivatives in time of inputs, or none if one is refused, into `slopes`, by value
+    /// reference.
     pub fn set_slopes(
         names: &[impl Names<RealRef>],
         values: &[f64],

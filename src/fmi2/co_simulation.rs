@@ -68,8 +68,8 @@ pub unsafe extern "C" fn fmi2CancelStep(c: fmi2Component) -> fmi2Status {
     }
 }
 
-/// The derivatives hold for the next step: the standard says that inputs and their derivatives are set with
-/// respect to the beginning of a step. They are kept while steps are refused.
+/// The derivatives hold for the next step: the standard says that inputs and their derivatives are
+/// set with respect to the beginning of a step. They are kept while steps are refused.
 ///
 /// # Safety
 /// As in the standard: `vr`, `order` and `value` have `nvr` elements.

@@ -1,7 +1,8 @@
-//! The complete state of an instance: fmi2Functions.h, "Getting and setting the internal FMU state".
+//! The complete state of an instance: fmi2Functions.h, "Getting and setting the internal FMU
+//! state".
 //!
-//! A state is a copy of what the block knows, of the mode and of the time. Serialized it is, all numbers
-//! little-endian:
+//! A state is a copy of what the block knows, of the mode and of the time. Serialized it is, all
+//! numbers little-endian:
 //!
 //! ```text
 //! magic        8 bytes  "HelRotor"
@@ -251,7 +252,8 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, state: *mut fmi2FMUst
 /// The state may come from another instance of this FMU.
 ///
 /// # Safety
-/// As in the standard: `state` comes from fmi2GetFMUstate or fmi2DeSerializeFMUstate and was not freed.
+/// As in the standard: `state` comes from fmi2GetFMUstate or fmi2DeSerializeFMUstate and was not
+/// freed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, state: fmi2FMUstate) -> fmi2Status {
     let body = |instance: &mut Instance| {

@@ -57,8 +57,8 @@ pub unsafe fn free<T: Marked>(pointer: *mut c_void) {
     let Some(handle) = (unsafe { recognise::<T>(pointer) }) else {
         return;
     };
-    // SAFETY: the mark says that `create` made the handle with Box::into_raw. The mark is written in
-    // a way that the compiler keeps, so that a copy of the pointer is recognised as freed.
+    // SAFETY: the mark says that `create` made the handle with Box::into_raw. The mark is written
+    // in a way that the compiler keeps, so that a copy of the pointer is recognised as freed.
     unsafe {
         (&raw mut (*handle.as_ptr()).mark).write_volatile(0);
         drop(Box::from_raw(handle.as_ptr()));

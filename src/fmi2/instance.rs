@@ -58,8 +58,8 @@ pub fn refuse(text: String) -> Outcome {
 }
 
 impl Instance {
-    /// What is read in Initialization Mode or in Model Exchange belongs to what was set before; in Co-Simulation
-    /// it belongs to the last step.
+    /// What is read in Initialization Mode or in Model Exchange belongs to what was set before; in
+    /// Co-Simulation it belongs to the last step.
     pub fn refresh(&mut self) -> Result<(), BlockError> {
         if self.state == INITIALIZATION_MODE || self.interface == Interface::ModelExchange {
             self.block.update()

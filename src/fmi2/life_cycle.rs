@@ -1,5 +1,5 @@
-//! From the experiment to the end: fmi2Functions.h, "Enter and exit initialization mode, terminate and
-//! reset".
+//! From the experiment to the end: fmi2Functions.h, "Enter and exit initialization mode, terminate
+//! and reset".
 
 #![allow(non_snake_case)]
 

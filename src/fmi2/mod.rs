@@ -1,7 +1,8 @@
 //! The C interface of FMI 2.0 (standard 2.0.5): the 44 functions of fmi2Functions.h and nothing
 //! else. No physics here.
 //!
-//! * `version.rs`, `creation.rs`, `life_cycle.rs`: the version; instances; from the experiment to the end
+//! * `version.rs`, `creation.rs`, `life_cycle.rs`: the version; instances; from the experiment to
+//!   the end
 //! * `get_set.rs`: getting and setting values of variables
 //! * `fmu_state.rs`: getting, setting and serializing the complete state
 //! * `directional.rs`: derivatives along a direction

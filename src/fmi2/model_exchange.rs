@@ -1,7 +1,7 @@
 //! The functions of Model Exchange: fmi2Functions.h, "Functions for FMI2 for Model Exchange".
 //!
-//! The importer integrates. There is no equation in which time itself stands, and no event indicator: what is
-//! discrete (`flowState`) asks for its event after a completed step.
+//! The importer integrates. There is no equation in which time itself stands, and no event
+//! indicator: what is discrete (`flowState`) asks for its event after a completed step.
 
 #![allow(non_snake_case)]
 

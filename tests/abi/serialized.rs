@@ -269,8 +269,8 @@ fn null_pointers_and_short_room_are_refused() {
     assert_eq!(room[count..], [0x55; 8]);
 }
 
-/// What becomes of an instance that is given bytes: they are refused with one sentence, or it goes on, or refuses
-/// to, in its own words; a reset makes it as new.
+/// What becomes of an instance that is given bytes: they are refused with one sentence, or it goes
+/// on, or refuses to, in its own words; a reset makes it as new.
 fn survives(bytes: &[u8]) -> Result<(), TestCaseError> {
     let instance = Instance::new();
     let Ok(state) = instance.deserialize(bytes) else {

@@ -1,4 +1,5 @@
-//! The program: makes `HelicopterRotor.fmu`, flies it in FMPy beside measurements, and writes the page of how well.
+//! The program: makes `HelicopterRotor.fmu`, flies it in FMPy beside measurements, and writes the
+//! page of how well.
 
 mod package;
 mod page;
@@ -35,9 +36,11 @@ enum Command {
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
-    /// Make the reference inputs and outputs anew, that an importer is checked against, and the .fmu with them in it
+    /// Make the reference inputs and outputs anew, that an importer is checked against, and the
+    /// .fmu with them in it
     Reference,
-    /// Fly every measured case with the FMU in FMPy, and write docs/validation.md, its figures and the README's summary
+    /// Fly every measured case with the FMU in FMPy, and write docs/validation.md, its figures and
+    /// the README's summary
     Validate {
         /// Write nothing: compare them with what comes out now, within the last printed digit
         #[arg(long)]

@@ -1,5 +1,5 @@
-//! The Python environment of the examples and of validation/: a venv under the target folder, made once for each
-//! content of fmu-examples/requirements.txt.
+//! The Python environment of the examples and of validation/: a venv under the target folder, made
+//! once for each content of fmu-examples/requirements.txt.
 
 use crate::{Failure, failed, sources};
 use indicatif::ProgressBar;
@@ -68,15 +68,16 @@ pub fn environment(target: &Path) -> Result<PathBuf, Failure> {
     Ok(interpreter)
 }
 
-/// Flies Knight & Hefner's rotors through their measured range of pitch; the script prints the table and writes the plot
-/// beside the FMU.
+/// Flies Knight & Hefner's rotors through their measured range of pitch; the script prints the
+/// table and writes the plot beside the FMU.
 pub fn fly_knight_hefner(fmu: &Path, target: &Path) -> Result<(), Failure> {
     let folder = fmu.parent().unwrap_or(Path::new("."));
     run(target, &examples().join("knight_hefner.py"), fmu, folder)
 }
 
-/// Makes the reference inputs and outputs of a few flights, against which an importer is checked: writes the files of the
-/// source tree, those that travel in the FMU and those in the form of the FMI cross-check.
+/// Makes the reference inputs and outputs of a few flights, against which an importer is checked:
+/// writes the files of the source tree, those that travel in the FMU and those in the form of the
+/// FMI cross-check.
 pub fn make_reference_flights(fmu: &Path, target: &Path) -> Result<(), Failure> {
     let script = sources().join("reference-flights").join("make.py");
     run(target, &script, fmu, sources())

@@ -1,5 +1,5 @@
-//! The summary of how well the model does, which stands in the README between two marks: the validation writes it there,
-//! and the FMU's own documentation shows it.
+//! The summary of how well the model does, which stands in the README between two marks: the
+//! validation writes it there, and the FMU's own documentation shows it.
 
 use crate::{Failure, failed, sources};
 use std::{fs, path::PathBuf};

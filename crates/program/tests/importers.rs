@@ -130,7 +130,8 @@ fn fmpy_integrates_the_defaults_in_model_exchange() {
     assert!((value(last, "azimuth") / turned - 1.0).abs() < 1e-3);
 }
 
-/// A manoeuvre with dynamic inflow, flapping blades and a torque that drives, along a ramp of nine inputs.
+/// A manoeuvre with dynamic inflow, flapping blades and a torque that drives, along a ramp of nine
+/// inputs.
 #[test]
 fn fmpy_flies_the_same_manoeuvre_through_both_interfaces_and_goes_back_to_a_state() {
     let script = "crates/program/tests/both_interfaces.py";
@@ -194,10 +195,12 @@ fn order(points: &[(f64, f64)]) -> f64 {
     above / below
 }
 
-/// Model Exchange comes to what Co-Simulation has with its shortest steps, as the solver's tolerance shrinks. A solver of
-/// order p that keeps the error of each step at the tolerance takes steps as tolerance^(1/(p + 1)), so that the error of all of
-/// them goes with tolerance^(p/(p + 1)): powers of 0.5 to 0.83 for CVode's backward differences of orders 1 to 5, with
-/// some leeway for orders that rise as the tolerance shrinks. Heun's third-order method in Co-Simulation has the power 3.
+/// Model Exchange comes to what Co-Simulation has with its shortest steps, as the solver's
+/// tolerance shrinks. A solver of order p that keeps the error of each step at the tolerance takes
+/// steps as tolerance^(1/(p + 1)), so that the error of all of them goes with tolerance^(p/(p +
+/// 1)): powers of 0.5 to 0.83 for CVode's backward differences of orders 1 to 5, with some leeway
+/// for orders that rise as the tolerance shrinks. Heun's third-order method in Co-Simulation has
+/// the power 3.
 #[test]
 fn both_interfaces_converge_to_the_same_flights() {
     let folder = scratch("solver-accuracy");
@@ -234,7 +237,8 @@ fn both_interfaces_converge_to_the_same_flights() {
     assert!(picture.metadata().unwrap().len() > 10_000);
 }
 
-/// Exact derivatives make Newton's method converge quadratically, and the linear model what the FMU does in small steps.
+/// Exact derivatives make Newton's method converge quadratically, and the linear model what the FMU
+/// does in small steps.
 #[test]
 fn a_hover_is_trimmed_and_made_linear_by_exact_derivatives() {
     let folder = scratch("hover-trim");
@@ -275,8 +279,9 @@ fn a_hover_is_trimmed_and_made_linear_by_exact_derivatives() {
             "{model:?} {theory:?}"
         );
     }
-    // Flapping and inflow die away. Differential flapping gives no load to the inflow: its frequency is that of a blade
-    // in vacuum on its hinge, sqrt(1 + 1.5 e/(1 - e)) per turn (Johnson 1980), e = 0.05.
+    // Flapping and inflow die away. Differential flapping gives no load to the inflow: its
+    // frequency is that of a blade in vacuum on its hinge, sqrt(1 + 1.5 e/(1 - e)) per turn
+    // (Johnson 1980), e = 0.05.
     let modes = words
         .lines()
         .filter_map(|line| line.trim_start().strip_prefix("eigenvalue"));
@@ -320,7 +325,8 @@ fn a_hover_is_trimmed_and_made_linear_by_exact_derivatives() {
         }
         assert_eq!(changes[0], 0.0);
     }
-    // At once as much thrust as the pitch makes, half as much when inflow and flapping have followed.
+    // At once as much thrust as the pitch makes, half as much when inflow and flapping have
+    // followed.
     let change = |i: usize| value(&rows[i], "step:force[3]") - value(&rows[i], "held:force[3]");
     assert!(change(51) > 8.0 && (5.0..6.5).contains(&change(350)));
     assert!(folder.join("step-response.png").metadata().unwrap().len() > 10_000);
@@ -385,9 +391,9 @@ fn the_ramp_of_collective_raises_the_thrust_step_by_step() {
     );
 }
 
-/// Known of every helicopter: the power needed in level flight falls from hover to a minimum at a middling
-/// speed and rises again; the tip path leans back more the faster it flies, and early to the
-/// advancing side where the inflow grows towards the rear.
+/// Known of every helicopter: the power needed in level flight falls from hover to a minimum at a
+/// middling speed and rises again; the tip path leans back more the faster it flies, and early to
+/// the advancing side where the inflow grows towards the rear.
 #[test]
 fn level_flight_has_the_bucket_of_power_and_the_flapping_of_textbooks() {
     let folder = scratch("forward-flight");
@@ -429,8 +435,8 @@ fn level_flight_has_the_bucket_of_power_and_the_flapping_of_textbooks() {
     assert!(slow("pittPetersDynamic") > 3.0 * slow("uniform"));
     assert!(slow("petersHe") > 3.0 * slow("uniform"));
 
-    // Over the disc: small angles on the advancing side, large ones on the retreating side, and flow from
-    // behind within the circle of diameter mu R there.
+    // Over the disc: small angles on the advancing side, large ones on the retreating side, and
+    // flow from behind within the circle of diameter mu R there.
     let points = csv(&folder.join("angle-of-attack.csv"));
     assert_eq!(points.len(), 120 * 20);
     let tilt = value(&flown("pittPetersDynamic")[9], "tilt").to_radians();
@@ -454,9 +460,10 @@ fn level_flight_has_the_bucket_of_power_and_the_flapping_of_textbooks() {
     }
 }
 
-/// Known of every helicopter: without its engine the rotor slows down until the collective is lowered, and then
-/// turns by the air that comes from below; straight down that is at 1.7 to 1.9 v_h (Leishman 2006), a
-/// little more where the blades' own drag counts much; and the energy in the rotor is worth a soft landing.
+/// Known of every helicopter: without its engine the rotor slows down until the collective is
+/// lowered, and then turns by the air that comes from below; straight down that is at 1.7 to 1.9
+/// v_h (Leishman 2006), a little more where the blades' own drag counts much; and the energy in the
+/// rotor is worth a soft landing.
 #[test]
 fn a_helicopter_lands_softly_without_its_engine() {
     let folder = scratch("engine-off");

@@ -1,5 +1,5 @@
-//! The reference files, against which an importer is checked: they are what the FMU computes today, they keep the
-//! rules of their formats, and what checks importers with them sees errors.
+//! The reference files, against which an importer is checked: they are what the FMU computes today,
+//! they keep the rules of their formats, and what checks importers with them sees errors.
 
 mod support;
 
@@ -83,8 +83,8 @@ fn references() -> BTreeMap<String, Columns> {
         .collect()
 }
 
-/// The committed files are those that the command makes with today's FMU. The outputs may differ by a hundredth of the tolerance,
-/// which is more than another platform's rounding.
+/// The committed files are those that the command makes with today's FMU. The outputs may differ by
+/// a hundredth of the tolerance, which is more than another platform's rounding.
 #[test]
 fn the_files_are_those_of_a_fresh_converged_flight() {
     let fresh = scratch().join("fresh");
@@ -128,8 +128,8 @@ fn the_files_are_those_of_a_fresh_converged_flight() {
     assert_eq!(count, 16);
 }
 
-/// The largest deviation in each experiment, %, of what FMPy flies through an interface with the options; all outputs
-/// were compared and found within the tolerance.
+/// The largest deviation in each experiment, %, of what FMPy flies through an interface with the
+/// options; all outputs were compared and found within the tolerance.
 fn worst_deviations(options: &[&str]) -> BTreeMap<String, f64> {
     let options: Vec<&Path> = options.iter().map(Path::new).collect();
     let words = succeeded(&check(packaged_fmu(), &options));
@@ -154,8 +154,8 @@ fn worst_deviations(options: &[&str]) -> BTreeMap<String, f64> {
     found
 }
 
-/// With the communication steps that the experiments name, FMPy is off by the lag of the held inputs: by
-/// less than the tolerance, and by more than nothing.
+/// With the communication steps that the experiments name, FMPy is off by the lag of the held
+/// inputs: by less than the tolerance, and by more than nothing.
 #[test]
 fn fmpy_repeats_the_experiments_within_the_tolerance() {
     for (experiment, worst) in worst_deviations(&[]) {
@@ -163,8 +163,8 @@ fn fmpy_repeats_the_experiments_within_the_tolerance() {
     }
 }
 
-/// The references, which Co-Simulation made, hold for Model Exchange. Where there are states, FMPy's held inputs
-/// leave a lag there, too; where there are none, nothing.
+/// The references, which Co-Simulation made, hold for Model Exchange. Where there are states,
+/// FMPy's held inputs leave a lag there, too; where there are none, nothing.
 #[test]
 fn fmpy_repeats_the_experiments_in_model_exchange() {
     for (experiment, worst) in worst_deviations(&["--interface", "ModelExchange"]) {

@@ -1,5 +1,5 @@
-//! The validation page: the packaged FMU, flown in FMPy through all measured cases by the program's own command,
-//! keeps to these bounds, and docs/validation.md and the README say what comes out.
+//! The validation page: the packaged FMU, flown in FMPy through all measured cases by the program's
+//! own command, keeps to these bounds, and docs/validation.md and the README say what comes out.
 
 mod support;
 
@@ -101,7 +101,8 @@ fn thrust_of_castles_and_grays_rotor_in_hover() {
     assert!(thrust.mean_absolute <= 8.0, "{thrust:?}");
 }
 
-/// With the law that is measured, whichever inflow model has it; also where the law was fitted to other runs.
+/// With the law that is measured, whichever inflow model has it; also where the law was fitted to
+/// other runs.
 #[test]
 fn collective_for_a_thrust_in_descent() {
     let rows = of("Castles & Gray 1951, descent", "collective");
@@ -124,8 +125,8 @@ fn collective_for_a_thrust_in_descent() {
 
 const SENSITIVITIES: usize = 3;
 
-/// Coning and longitudinal flapping with every inflow model. Lateral flapping needs inflow that grows
-/// towards the rear, which uniform inflow, the annuli and the finite blades do not have.
+/// Coning and longitudinal flapping with every inflow model. Lateral flapping needs inflow that
+/// grows towards the rear, which uniform inflow, the annuli and the finite blades do not have.
 #[test]
 fn the_autogiro_flaps_as_measured_in_flight() {
     for quantity in ["coning", "longitudinal flapping", "lateral flapping"] {
@@ -158,7 +159,8 @@ fn coning_depends_on_what_is_assumed_of_section_and_tip() {
     }
 }
 
-/// A case that cannot be flown stops the command with a sentence that names it, and nothing is written.
+/// A case that cannot be flown stops the command with a sentence that names it, and nothing is
+/// written.
 #[test]
 fn a_case_that_fails_is_named_and_nothing_is_written() {
     let folder = support::scratch().join("broken");

@@ -1,4 +1,5 @@
-//! What a response costs: hover in annuli, and one azimuth step of four flapping blades in dynamic inflow.
+//! What a response costs: hover in annuli, and one azimuth step of four flapping blades in dynamic
+//! inflow.
 //!
 //!     cargo bench -p rotor
 //!

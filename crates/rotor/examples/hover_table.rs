@@ -11,7 +11,8 @@ use rotor::{
 use std::{error::Error, f64::consts::PI, path::Path};
 
 fn main() -> Result<(), Box<dyn Error>> {
-    // Four blades, R = 0.762 m, root cutout R/6, chord 50.8 mm, no taper, no twist: Knight & Hefner 1937.
+    // Four blades, R = 0.762 m, root cutout R/6, chord 50.8 mm, no taper, no twist: Knight & Hefner
+    // 1937.
     let geometry = Geometry::linear(4, 0.762, 1.0 / 6.0, 0.0508, 1.0, 0.0);
     geometry.check()?;
     let elements = Elements::new(&geometry, 40);

@@ -2,7 +2,8 @@
 
 use super::{geometry::Elements, scalar::Scalar};
 
-/// The loads and the flow at a blade element: those of blade 1, or averages over one revolution in the disc. SI units, rad.
+/// The loads and the flow at a blade element: those of blade 1, or averages over one revolution in
+/// the disc. SI units, rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElementLoads<S = f64> {
     /// Thrust per unit of radius times the number of blades, N/m.
@@ -84,7 +85,8 @@ impl<'a, S: Scalar> BladeLoads<'a, S> {
         self.loads
     }
 
-    /// Loads at a radius r/R: linear between the middles of the elements, and those of the end elements beyond them.
+    /// Loads at a radius r/R: linear between the middles of the elements, and those of the end
+    /// elements beyond them.
     pub fn at(&self, radius_ratio: f64) -> ElementLoads<S> {
         let last = self.loads.len() - 1;
         let index =

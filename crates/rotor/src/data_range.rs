@@ -18,8 +18,8 @@ pub struct OutsideData<'a> {
 }
 
 impl Rotor {
-    /// The first airfoil that meets numbers outside its data under these loads, one for each element. Allocates nothing.
-    /// Elements in still air do not count.
+    /// The first airfoil that meets numbers outside its data under these loads, one for each
+    /// element. Allocates nothing. Elements in still air do not count.
     pub fn outside_data(&self, loads: &[ElementLoads], axis: Axis) -> Option<OutsideData<'_>> {
         let airfoils = self.airfoils().iter().enumerate();
         airfoils.into_iter().find_map(|(index, airfoil)| {

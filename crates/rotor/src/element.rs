@@ -106,8 +106,8 @@ impl<S: Scalar> Element<'_, S> {
         }
     }
 
-    /// Lift coefficient of the element, averaged over its width: only `lifting_share` of it carries lift.
-    /// `alpha` in rad, `speed` in m/s.
+    /// Lift coefficient of the element, averaged over its width: only `lifting_share` of it carries
+    /// lift. `alpha` in rad, `speed` in m/s.
     pub fn lift_coefficient(&self, alpha: S, speed: S) -> S {
         let flow = self.similarity(speed);
         self.section
@@ -133,9 +133,9 @@ impl<S: Scalar> Element<'_, S> {
     }
 
     /// Loads of the section at a pitch (rad) in a flow with the components `in_plane` against the
-    /// motion of the blade and `through` down through the disc (m/s): thesis eqs. (74) to (76) and (83),
-    /// (84) without small angles. The flow along the blade has no effect on a section (independence
-    /// principle), and here none on its drag either.
+    /// motion of the blade and `through` down through the disc (m/s): thesis eqs. (74) to (76) and
+    /// (83), (84) without small angles. The flow along the blade has no effect on a section
+    /// (independence principle), and here none on its drag either.
     pub fn load(&self, pitch: S, in_plane: S, through: S, loss: LossIn) -> SectionLoad<S> {
         let speed = in_plane.hypot(through);
         if speed.value() == 0.0 {

@@ -1,4 +1,5 @@
-//! A rotor at an operating point in a state: wind axes, the disc's flow in them, and the positions of the blades.
+//! A rotor at an operating point in a state: wind axes, the disc's flow in them, and the positions
+//! of the blades.
 
 use super::{
     blade::Blade,
@@ -14,7 +15,8 @@ use super::{
 use core::f64::consts::PI;
 use nalgebra::Vector3;
 
-/// Asymmetry of the inflow states below which the disc counts as symmetric, as a fraction of the speeds in the problem.
+/// Asymmetry of the inflow states below which the disc counts as symmetric, as a fraction of the
+/// speeds in the problem.
 const SYMMETRIC: f64 = 1e-12;
 
 /// A rotor at an operating point in a state, with what every computation there needs.
@@ -130,19 +132,22 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
         }
     }
 
-    /// Whether the response is that of blades at their azimuths, rather than an average over one revolution.
+    /// Whether the response is that of blades at their azimuths, rather than an average over one
+    /// revolution.
     pub fn shows_blades(&self) -> bool {
         self.is_individual
     }
 
-    /// Whether the states go on changing for ever, because blades meet other air at each azimuth or a torque drives them.
+    /// Whether the states go on changing for ever, because blades meet other air at each azimuth or
+    /// a torque drives them.
     pub fn never_settles(&self) -> bool {
         let turns =
             self.point.speed.value() != 0.0 && self.is_individual && !self.flow.is_axisymmetric();
         turns || self.point.is_driven()
     }
 
-    /// The disc as the inflow models see it, with the lift of the elements ending as `lifting_shares` say.
+    /// The disc as the inflow models see it, with the lift of the elements ending as
+    /// `lifting_shares` say.
     pub(crate) fn disc<'b>(&'b self, lifting_shares: &'b [S]) -> Disc<'b, S> {
         let rotor = self.rotor;
         let models = rotor.models();
@@ -213,7 +218,8 @@ fn blade_positions<S: Scalar>(
     }))
 }
 
-/// The stations on the azimuth to average over: a single one without direction where all azimuths are alike.
+/// The stations on the azimuth to average over: a single one without direction where all azimuths
+/// are alike.
 fn stations<S: Scalar>(rotor: &Rotor, is_symmetric: bool) -> BladePositions<S> {
     if is_symmetric {
         return BladePositions::new([rigid(rotor, Azimuth::any())].into_iter());

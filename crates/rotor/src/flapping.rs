@@ -1,10 +1,11 @@
 //! Flapping of rigid blades about their hinges.
 //!
-//! The blade outboard of the hinge at radius h is a uniform rod, so that its moment of inertia I about
-//! the hinge gives the other moments: with the length l = R - h, the first moment S = 3/2 I/l and the
-//! mass m = 3 I/l^2. Newton's law for its rotation about the hinge (Johnson 1980, "Helicopter
-//! Theory", ch. 5, here without small angles), with n, X and Z of `disc`, the angular velocity
-//! (w_r, w_t, W) of the blade's frame, the rotor speed W against the air and Omega against the hub:
+//! The blade outboard of the hinge at radius h is a uniform rod, so that its moment of inertia I
+//! about the hinge gives the other moments: with the length l = R - h, the first moment S = 3/2 I/l
+//! and the mass m = 3 I/l^2. Newton's law for its rotation about the hinge (Johnson 1980,
+//! "Helicopter Theory", ch. 5, here without small angles), with n, X and Z of `disc`, the angular
+//! velocity (w_r, w_t, W) of the blade's frame, the rotor speed W against the air and Omega against
+//! the hub:
 //!
 //! ```text
 //! I beta'' = M - k (beta - beta_p) + S n.g + w_t' (I + h S cos beta)
@@ -17,10 +18,10 @@
 //! h S/I = 3/2 e/(1 - e).
 //!
 //! Assumptions. The hub's velocity and angular velocity change slowly enough that their derivatives
-//! do not act on the blades. The hub feels each blade through its spring and, at the offset, through
-//! the forces of the air and of the blade's inertia. In the disc it feels the air alone, because
-//! inertia forces cancel over one revolution. The weight of the blades belongs to the vehicle's
-//! weight.
+//! do not act on the blades. The hub feels each blade through its spring and, at the offset,
+//! through the forces of the air and of the blade's inertia. In the disc it feels the air alone,
+//! because inertia forces cancel over one revolution. The weight of the blades belongs to the
+//! vehicle's weight.
 
 use super::{
     disc::{BladePosition, DiscFlow},
@@ -98,8 +99,8 @@ impl Freedom {
         (action.moment - spring + weight + turning - across - centrifugal) / self.inertia
     }
 
-    /// The moment of a blade on the hub about -e_t (up) less that of the air about the hub's centre,
-    /// N.m: k (beta - beta_p) - M - h integral of a_z dm.
+    /// The moment of a blade on the hub about -e_t (up) less that of the air about the hub's
+    /// centre, N.m: k (beta - beta_p) - M - h integral of a_z dm.
     pub fn hub_moment_excess<S: Scalar>(
         &self,
         hinge: &Hinge,
@@ -126,8 +127,8 @@ impl Freedom {
         spring - action.moment - inertia * hinge.offset
     }
 
-    /// An estimate of how fast a blade swings and comes to rest, 1/s, with a lift slope of 2 pi: `chord` (m) is the largest
-    /// of the blade, `speed` (m/s) that of the air at its tip.
+    /// An estimate of how fast a blade swings and comes to rest, 1/s, with a lift slope of 2 pi:
+    /// `chord` (m) is the largest of the blade, `speed` (m/s) that of the air at its tip.
     pub fn fastest_rate(
         &self,
         hinge: &Hinge,

@@ -7,8 +7,8 @@ use super::{
 use core::f64::consts::PI;
 use nalgebra::Vector3;
 
-/// Loads on the hub at the present azimuth, or as averages over one revolution in the disc. SI units, vectors in the hub
-/// frame.
+/// Loads on the hub at the present azimuth, or as averages over one revolution in the disc. SI
+/// units, vectors in the hub frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HubLoads<S = f64> {
     /// Force on the hub, N.
@@ -32,7 +32,8 @@ pub struct HubLoads<S = f64> {
 impl<S: Scalar> HubLoads<S> {
     /// From the loads of the air on the disc.
     ///
-    /// A clockwise rotor is computed as the mirror image of a counter-clockwise one, and mirrored back here.
+    /// A clockwise rotor is computed as the mirror image of a counter-clockwise one, and mirrored
+    /// back here.
     pub(crate) fn new(evaluation: &Evaluation<S>, loads: &DiscLoads<S>) -> Self {
         let Evaluation {
             rotor,
@@ -51,7 +52,8 @@ impl<S: Scalar> HubLoads<S> {
                 moment += Vector3::new(-position.azimuth.sin, position.azimuth.cos, S::zero()) * up;
             }
         }
-        // A free shaft hands on to the hub only the torque that drives it; the rest changes the rotor's speed.
+        // A free shaft hands on to the hub only the torque that drives it; the rest changes the
+        // rotor's speed.
         let around = match point.drive {
             Drive::Speed => moment.z,
             Drive::Torque { torque, .. } => -torque,

@@ -87,7 +87,8 @@ impl<S: Scalar> Field<S> {
         }
     }
 
-    /// From the hub frame to wind axes: the slopes towards psi = 0 and 90 deg turn like the components of a vector.
+    /// From the hub frame to wind axes: the slopes towards psi = 0 and 90 deg turn like the
+    /// components of a vector.
     pub fn into_wind(&self, axes: &WindAxes<S>) -> Self {
         let (cosine, sine) = axes.into_wind(self.cosine, self.sine);
         Self {

@@ -1,7 +1,9 @@
-//! The physics of a helicopter rotor: plain structures and functions in SI units and radians. Nothing here knows of FMI.
+//! The physics of a helicopter rotor: plain structures and functions in SI units and radians.
+//! Nothing here knows of FMI.
 //!
-//! A `Rotor` is a definition that never changes. It answers a `Response` at an `OperatingPoint` in a `State`, computed in a
-//! `Workspace`, in plain numbers or in dual ones that carry exact derivatives.
+//! A `Rotor` is a definition that never changes. It answers a `Response` at an `OperatingPoint` in
+//! a `State`, computed in a `Workspace`, in plain numbers or in dual ones that carry exact
+//! derivatives.
 //!
 //! ```
 //! use rotor::{Models, OperatingPoint, Rotor, Workspace, air::Air, airfoil::Airfoil};
@@ -29,8 +31,8 @@
 //! # }
 //! ```
 //!
-//! "The thesis" is Lovaco Hernandez, J. L. (2017), "Verification of a Modelica Helicopter Rotor Model Using Blade Element
-//! Theory", Linkoping University, LIU-IEI-TEK-A--17/02958-SE.
+//! "The thesis" is Lovaco Hernandez, J. L. (2017), "Verification of a Modelica Helicopter Rotor
+//! Model Using Blade Element Theory", Linkoping University, LIU-IEI-TEK-A--17/02958-SE.
 //!
 //! The modules, each of which imports only from those before it:
 //!
@@ -39,8 +41,10 @@
 //! * the blade: `geometry`, `tip_loss`, `element`, `blade_loads`, `blade`
 //! * the disc: `disc`, `induced`, `sweep`
 //! * inflow: `inflow`
-//! * the rotor: `state`, `operating_point`, `flapping`, `models`, `rotor`, `workspace`, `data_range`
-//! * what it computes: `evaluation`, `loads`, `lift_end`, `tip_path`, `hub_loads`, `rates`, `response`, `step`, `start`
+//! * the rotor: `state`, `operating_point`, `flapping`, `models`, `rotor`, `workspace`,
+//!   `data_range`
+//! * what it computes: `evaluation`, `loads`, `lift_end`, `tip_path`, `hub_loads`, `rates`,
+//!   `response`, `step`, `start`
 
 #![warn(missing_docs)]
 

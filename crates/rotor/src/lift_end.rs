@@ -14,8 +14,8 @@ use core::f64::consts::PI;
 /// Tolerance of the thrust coefficient on which the end of the lift depends.
 const THRUST_TOLERANCE: f64 = 1e-13;
 
-/// The loads of the air on the disc, with the lift of the blades ending where the tip loss says. The workspace gets the loads
-/// of the elements.
+/// The loads of the air on the disc, with the lift of the blades ending where the tip loss says.
+/// The workspace gets the loads of the elements.
 pub(crate) fn disc_loads<S: Scalar>(
     evaluation: &Evaluation<S>,
     workspace: &mut Workspace<S>,
@@ -38,8 +38,8 @@ pub(crate) fn disc_loads<S: Scalar>(
         end_lift_at(end, rotor.geometry(), rotor.elements(), lifting_shares);
         DiscLoads::new(evaluation, lifting_shares, elements)
     };
-    // More thrust ends the lift earlier, which makes less thrust. A rotor that hardly turns has the airspeed in its
-    // coefficient in addition to a tip speed, which the formula does not know.
+    // More thrust ends the lift earlier, which makes less thrust. A rotor that hardly turns has the
+    // airspeed in its coefficient in addition to a tip speed, which the formula does not know.
     let radius = rotor.geometry().radius;
     let tip_speed = point.speed * radius;
     let air = &point.airspeed;

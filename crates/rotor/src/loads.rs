@@ -1,4 +1,5 @@
-//! The loads of the air on the disc: all elements at all blade positions, in what the inflow model induces.
+//! The loads of the air on the disc: all elements at all blade positions, in what the inflow model
+//! induces.
 
 use super::{
     blade_loads::ElementLoads,
@@ -33,7 +34,8 @@ pub(crate) struct DiscLoads<S = f64> {
 }
 
 impl<S: Scalar> DiscLoads<S> {
-    /// With the lift of the elements ending as `lifting_shares` say. `loads` gets the loads of each element.
+    /// With the lift of the elements ending as `lifting_shares` say. `loads` gets the loads of each
+    /// element.
     pub(crate) fn new(
         evaluation: &Evaluation<S>,
         lifting_shares: &[S],

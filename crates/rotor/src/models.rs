@@ -28,8 +28,8 @@ pub struct Models {
 }
 
 impl Default for Models {
-    /// The models of the FMU that sets nothing: annuli, the measured law of descent, rigid blades, Prandtl's tip loss, airfoil
-    /// tables with Prandtl and Glauert's rule.
+    /// The models of the FMU that sets nothing: annuli, the measured law of descent, rigid blades,
+    /// Prandtl's tip loss, airfoil tables with Prandtl and Glauert's rule.
     fn default() -> Self {
         Self {
             inflow: Inflow::Annulus,

@@ -7,18 +7,20 @@ use super::{
 };
 use nalgebra::Vector3;
 
-/// An operating point: controls, motion of the hub and air. SI units, rad; vectors in the hub frame (x forward, y left, z
-/// up along the shaft).
+/// An operating point: controls, motion of the hub and air. SI units, rad; vectors in the hub frame
+/// (x forward, y left, z up along the shaft).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OperatingPoint<S = f64> {
-    /// Blade pitch at the reference radius, rad. With cyclic control it is collective - cyclic_lateral cos(psi) -
-    /// cyclic_longitudinal sin(psi), psi from the tail in the turning sense.
+    /// Blade pitch at the reference radius, rad. With cyclic control it is collective -
+    /// cyclic_lateral cos(psi) - cyclic_longitudinal sin(psi), psi from the tail in the turning
+    /// sense.
     pub collective: S,
     /// See `collective`, rad.
     pub cyclic_longitudinal: S,
     /// See `collective`, rad.
     pub cyclic_lateral: S,
-    /// Omega, of the rotor against the hub, rad/s. While a torque drives the rotor, the speed at the start.
+    /// Omega, of the rotor against the hub, rad/s. While a torque drives the rotor, the speed at
+    /// the start.
     pub speed: S,
     /// Velocity of the hub through the air, m/s.
     pub airspeed: Vector3<S>,
@@ -55,8 +57,9 @@ pub enum Drive<S = f64> {
 const FAR_FROM_GROUND: f64 = 1000.0;
 
 impl OperatingPoint {
-    /// Hover in still air far from the ground, at a collective, rad, and an imposed rotor speed, rad/s. Other flight
-    /// conditions change its fields: `OperatingPoint { airspeed, ..OperatingPoint::hover(...) }`.
+    /// Hover in still air far from the ground, at a collective, rad, and an imposed rotor speed,
+    /// rad/s. Other flight conditions change its fields: `OperatingPoint { airspeed,
+    /// ..OperatingPoint::hover(...) }`.
     pub fn hover(collective: f64, speed: f64, air: Air) -> Self {
         Self {
             collective,

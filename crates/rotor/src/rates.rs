@@ -45,8 +45,8 @@ pub(crate) fn of<S: Scalar>(evaluation: &Evaluation<S>, loads: &DiscLoads<S>) ->
     rates
 }
 
-/// An estimate of how fast the states move towards their equilibrium, 1/s: inflow, flapping with the blades' lift as
-/// damper and, with delta3, as spring, and the speed with the lift as brake.
+/// An estimate of how fast the states move towards their equilibrium, 1/s: inflow, flapping with
+/// the blades' lift as damper and, with delta3, as spring, and the speed with the lift as brake.
 pub(crate) fn fastest(evaluation: &Evaluation) -> f64 {
     let Evaluation {
         rotor, point, flow, ..

@@ -20,10 +20,11 @@ pub struct Response<'a, S = f64> {
 }
 
 impl Rotor {
-    /// The response at an operating point in a state. Allocates nothing, except in a workspace that was made for another
-    /// rotor.
+    /// The response at an operating point in a state. Allocates nothing, except in a workspace that
+    /// was made for another rotor.
     ///
-    /// Fails where a momentum equation has no solution, which needs numbers that are not finite or overflow.
+    /// Fails where a momentum equation has no solution, which needs numbers that are not finite or
+    /// overflow.
     pub fn respond<'a, S: Scalar>(
         &'a self,
         point: &OperatingPoint<S>,

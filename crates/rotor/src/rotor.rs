@@ -11,23 +11,24 @@ use super::{
     tip_loss::lifting_share,
 };
 
-/// A rotor: its shape, airfoils, blade elements and models. It never changes; instances share it by `Arc`, and each
-/// computes in a `Workspace` of its own.
+/// A rotor: its shape, airfoils, blade elements and models. It never changes; instances share it by
+/// `Arc`, and each computes in a `Workspace` of its own.
 #[derive(Debug, Clone)]
 pub struct Rotor {
     geometry: Geometry,
     airfoils: Vec<Airfoil>,
     elements: Elements,
     models: Models,
-    /// Fraction of each element that carries lift, where the blade's shape alone decides where the lift ends.
+    /// Fraction of each element that carries lift, where the blade's shape alone decides where the
+    /// lift ends.
     lifting_shares: Vec<f64>,
     /// The azimuths over which a disc without axial symmetry is averaged.
     stations: [Azimuth; AZIMUTHS],
 }
 
 impl Rotor {
-    /// From a checked geometry, its elements, its airfoils (one for each of `geometry.airfoils`) and models. Blades that
-    /// flap are at most `state::MAX_FLAPPING_BLADES`.
+    /// From a checked geometry, its elements, its airfoils (one for each of `geometry.airfoils`)
+    /// and models. Blades that flap are at most `state::MAX_FLAPPING_BLADES`.
     pub fn new(
         geometry: Geometry,
         elements: Elements,
@@ -102,8 +103,8 @@ impl Rotor {
         }
     }
 
-    /// The state with 0 for all states that the rotor does not have: the speed unless a torque drives it, and inflow states
-    /// and flapping beyond those of the models.
+    /// The state with 0 for all states that the rotor does not have: the speed unless a torque
+    /// drives it, and inflow states and flapping beyond those of the models.
     pub fn used<S: Scalar>(&self, is_driven: bool, state: &State<S>) -> State<S> {
         let mut used = *state;
         if !is_driven {

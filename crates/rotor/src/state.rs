@@ -12,11 +12,12 @@ pub const MAX_FLAPPING_BLADES: usize = 8;
 /// Maximum number of states of an inflow model.
 pub const MAX_INFLOW_STATES: usize = MAX_STATES;
 
-/// The states of a rotor, or their rates of change per second. States that the models do not have stay 0.
+/// The states of a rotor, or their rates of change per second. States that the models do not have
+/// stay 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct State<S = f64> {
-    /// Azimuth of blade 1 from the tail in the turning sense, rad; it grows over the revolutions. Blade k is (k - 1) 2 pi/N
-    /// ahead.
+    /// Azimuth of blade 1 from the tail in the turning sense, rad; it grows over the revolutions.
+    /// Blade k is (k - 1) 2 pi/N ahead.
     pub azimuth: S,
     /// Rotor speed against the hub while a torque drives it, rad/s.
     pub speed: S,

@@ -42,7 +42,8 @@ pub fn mean_thrust<S: Scalar>(
     positions.iter().map(normal).sum::<S>() / positions.len() as f64 * element.blades
 }
 
-/// The loads of all blades' sections per unit of radius, averaged over the blade positions, in wind axes.
+/// The loads of all blades' sections per unit of radius, averaged over the blade positions, in wind
+/// axes.
 #[derive(Debug)]
 pub struct Sweep<'a, S = f64> {
     element: &'a Element<'a, S>,
@@ -64,7 +65,8 @@ pub struct Sweep<'a, S = f64> {
 }
 
 impl<'a, S: Scalar> Sweep<'a, S> {
-    /// `is_individual`: whether the positions are those of the blades, so that `loads` are blade 1's.
+    /// `is_individual`: whether the positions are those of the blades, so that `loads` are blade
+    /// 1's.
     pub fn new(
         element: &'a Element<'a, S>,
         flow: &'a DiscFlow<S>,
@@ -107,8 +109,9 @@ impl<'a, S: Scalar> Sweep<'a, S> {
         }
     }
 
-    /// A section's force is `normal` along n and `tangential` against e_t, and acts at X e_r + Z e_z;
-    /// its moment about the hub is -normal (X cos beta + Z sin beta) e_t + tangential (Z e_r - X e_z).
+    /// A section's force is `normal` along n and `tangential` against e_t, and acts at X e_r + Z
+    /// e_z; its moment about the hub is -normal (X cos beta + Z sin beta) e_t + tangential (Z e_r -
+    /// X e_z).
     fn add(
         &mut self,
         position: usize,
@@ -157,7 +160,8 @@ impl<'a, S: Scalar> Sweep<'a, S> {
         shown.induced_velocity += induced * share;
     }
 
-    /// The loads of blade 1, or the mean of all positions; `mean_induced` is that of the whole annulus, m/s.
+    /// The loads of blade 1, or the mean of all positions; `mean_induced` is that of the whole
+    /// annulus, m/s.
     pub fn loads(&self, mean_induced: S) -> ElementLoads<S> {
         let flow = self.element.similarity(self.mean.speed);
         ElementLoads {

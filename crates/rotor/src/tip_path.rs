@@ -6,7 +6,8 @@ use core::f64::consts::PI;
 /// Lean of the tip path beyond which one or two blades count as swinging, rad.
 const MAX_LEAN: f64 = 1.0;
 
-/// The cone of the blades: beta = coning - longitudinal cos psi - lateral sin psi, psi from the tail, rad.
+/// The cone of the blades: beta = coning - longitudinal cos psi - lateral sin psi, psi from the
+/// tail, rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipPath<S = f64> {
     /// a0.
@@ -20,10 +21,11 @@ pub struct TipPath<S = f64> {
 impl<S: Scalar> TipPath<S> {
     /// The cone of the blades in the hub frame.
     ///
-    /// From three blades on, the mean of the flap angles and twice their means with cos psi and sin psi (the multiblade
-    /// coordinates, Johnson 1980, ch. 8.4). One or two flap angles do not define a cone: for each, beta = a0 - a1 cos psi -
-    /// b1 sin psi with its first two derivatives does, and the mean over the blades is taken. Blades that swing too fast for
-    /// that are on no cone; their flap angle counts as coning.
+    /// From three blades on, the mean of the flap angles and twice their means with cos psi and sin
+    /// psi (the multiblade coordinates, Johnson 1980, ch. 8.4). One or two flap angles do not
+    /// define a cone: for each, beta = a0 - a1 cos psi - b1 sin psi with its first two derivatives
+    /// does, and the mean over the blades is taken. Blades that swing too fast for that are on no
+    /// cone; their flap angle counts as coning.
     pub(crate) fn new(evaluation: &Evaluation<S>, loads: &DiscLoads<S>) -> Self {
         let hinge = &evaluation.rotor.models().hinge;
         let mut path = Self {
@@ -48,7 +50,8 @@ impl<S: Scalar> TipPath<S> {
                 let acceleration = freedom.acceleration(hinge, &evaluation.flow, position, &action);
                 let second = acceleration / (speed * speed);
                 let first = rate / speed;
-                // A stopped rotor takes the other branch, too: its derivatives are infinite or not a number.
+                // A stopped rotor takes the other branch, too: its derivatives are infinite or not
+                // a number.
                 if first.hypot(second).value() < MAX_LEAN {
                     (
                         angle + second,

@@ -2,8 +2,8 @@
 
 use super::{blade_loads::ElementLoads, rotor::Rotor, scalar::Scalar};
 
-/// Scratch memory for computations with one rotor at a time, in plain or dual numbers. It carries nothing from one
-/// computation to the next.
+/// Scratch memory for computations with one rotor at a time, in plain or dual numbers. It carries
+/// nothing from one computation to the next.
 #[derive(Debug, Clone)]
 pub struct Workspace<S = f64> {
     /// Fraction of each element that carries lift.

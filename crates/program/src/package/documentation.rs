@@ -1,4 +1,5 @@
-//! The documentation page: its text with the table of variables and the summary of the accuracy put in.
+//! The documentation page: its text with the table of variables and the summary of the accuracy put
+//! in.
 
 use crate::{Failure, summary};
 use helicopter_rotor::description::VARIABLES_HTML;

@@ -1,4 +1,5 @@
-//! The shared library that goes into the FMU: built by cargo, which names the file, or given by the user.
+//! The shared library that goes into the FMU: built by cargo, which names the file, or given by the
+//! user.
 
 use crate::{Failure, failed, sources};
 use helicopter_rotor::block::variables::{GUID, MODEL_IDENTIFIER};
@@ -17,9 +18,11 @@ const PLATFORM: &str = "darwin64";
 #[cfg(all(target_os = "windows", target_arch = "x86_64"))]
 const PLATFORM: &str = "win64";
 
-/// Builds the FMU's library with cargo, in the profile of this program, and answers the file that cargo names.
+/// Builds the FMU's library with cargo, in the profile of this program, and answers the file that
+/// cargo names.
 ///
-/// `target`: cargo's target folder. Fails if cargo is not there or cannot build; cargo's own words go to the terminal.
+/// `target`: cargo's target folder. Fails if cargo is not there or cannot build; cargo's own words
+/// go to the terminal.
 pub fn build(target: &Path) -> Result<PathBuf, Failure> {
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command

@@ -1,7 +1,7 @@
 //! Two texts with numbers, within the rounding of what is printed.
 
-/// Lines that differ, as (first, second): in words, or in a number by more than a unit of its last printed digit. A line
-/// that one text has not is empty there.
+/// Lines that differ, as (first, second): in words, or in a number by more than a unit of its last
+/// printed digit. A line that one text has not is empty there.
 pub fn differences<'a>(first: &'a str, second: &'a str) -> Vec<(&'a str, &'a str)> {
     let (mut a, mut b) = (first.lines(), second.lines());
     let mut found = Vec::new();

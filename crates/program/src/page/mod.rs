@@ -1,5 +1,6 @@
-//! Flies every measured case with the packaged FMU in FMPy and keeps docs/validation.md, its figures and
-//! the README's summary as they come out: validation/ has the cases, this the way from there into the docs.
+//! Flies every measured case with the packaged FMU in FMPy and keeps docs/validation.md, its
+//! figures and the README's summary as they come out: validation/ has the cases, this the way from
+//! there into the docs.
 //!
 //! * `cases.rs`: runs the scripts, with a progress bar
 //! * `publish.rs`: the files in docs/ and the README that follow from a run
@@ -20,12 +21,13 @@ use std::{
 pub enum Purpose {
     /// docs/validation.md, docs/validation/ and the README are written anew.
     Write,
-    /// They are compared with it, number by number within the last printed digit; nothing of them is written.
+    /// They are compared with it, number by number within the last printed digit; nothing of them
+    /// is written.
     Check,
 }
 
-/// Flies all cases. `out` gets the FMU that was flown, the page, figures, errors.csv and element-times.csv: all of a
-/// run that succeeded, or what it had before.
+/// Flies all cases. `out` gets the FMU that was flown, the page, figures, errors.csv and
+/// element-times.csv: all of a run that succeeded, or what it had before.
 pub fn run(out: &Path, library: &Path, target: &Path, purpose: Purpose) -> Result<(), Failure> {
     publish::ready()?;
     only_a_run(out)?;

@@ -1,4 +1,5 @@
-//! The files that follow from a run: docs/validation.md, docs/validation/ with the figures, and the README's summary.
+//! The files that follow from a run: docs/validation.md, docs/validation/ with the figures, and the
+//! README's summary.
 
 use super::{beside, compare, replace_folder};
 use crate::{Failure, failed, sources, summary};

@@ -1,4 +1,5 @@
-//! What the tests of the program share: the .fmu that it packages, a folder for files, and its Python environment.
+//! What the tests of the program share: the .fmu that it packages, a folder for files, and its
+//! Python environment.
 
 // Each test program uses a part of this.
 #![allow(dead_code)]

@@ -2,7 +2,8 @@
 
 use crate::scalar::Scalar;
 
-/// The hub frame turned about the shaft so that x points into the flow along the disc: cosine and sine of the angle.
+/// The hub frame turned about the shaft so that x points into the flow along the disc: cosine and
+/// sine of the angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WindAxes<S = f64> {
     /// Cosine of the angle from the hub's x axis to the axes' x axis.
@@ -11,7 +12,8 @@ pub struct WindAxes<S = f64> {
     pub sin: S,
 }
 
-/// Sine and cosine of an azimuth. An axially symmetric disc has a single azimuth without direction, both 0.
+/// Sine and cosine of an azimuth. An axially symmetric disc has a single azimuth without direction,
+/// both 0.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Azimuth<S = f64> {
     /// sin psi.
@@ -21,7 +23,8 @@ pub struct Azimuth<S = f64> {
 }
 
 impl<S: Scalar> WindAxes<S> {
-    /// Axes for a hub that moves with (`forward`, `left`) through the air, m/s; those of the hub in hover.
+    /// Axes for a hub that moves with (`forward`, `left`) through the air, m/s; those of the hub in
+    /// hover.
     pub fn new(forward: S, left: S) -> Self {
         let ahead = (S::one(), S::zero());
         let (cos, sin) = S::direction(forward, left).unwrap_or(ahead);

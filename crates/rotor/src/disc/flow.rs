@@ -26,7 +26,8 @@ pub struct DiscFlow<S = f64> {
     pub hinge: f64,
 }
 
-/// The flow that a blade's section meets, without induced velocity, and the section's pitch and position.
+/// The flow that a blade's section meets, without induced velocity, and the section's pitch and
+/// position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionFlow<S = f64> {
     /// Change of pitch by cyclic control and flapping, rad.
@@ -72,10 +73,11 @@ impl<S: Scalar> DiscFlow<S> {
         )
     }
 
-    /// The flow at the section at `radius` (m, along the blade): thesis eqs. (101) and (102), with the angular velocity of
-    /// the hub and without small angles. It is the velocity of the section, V + w x (X e_r + Z e_z) + beta' s n, along e_t
-    /// and against n. U_R of eq. (103), along the blade, has no effect on a section (independence principle) and is left
-    /// out; so is the effect of sideslip on drag and stall.
+    /// The flow at the section at `radius` (m, along the blade): thesis eqs. (101) and (102), with
+    /// the angular velocity of the hub and without small angles. It is the velocity of the section,
+    /// V + w x (X e_r + Z e_z) + beta' s n, along e_t and against n. U_R of eq. (103), along the
+    /// blade, has no effect on a section (independence principle) and is left out; so is the effect
+    /// of sideslip on drag and stall.
     pub fn at_section(&self, radius: f64, position: &BladePosition<S>) -> SectionFlow<S> {
         let Azimuth { sin, cos } = position.azimuth;
         let outboard = (radius - self.hinge).max(0.0);

@@ -1,12 +1,15 @@
-//! The disc: axes turned into the wind, the positions of the blades on it, and the flow that their sections meet.
+//! The disc: axes turned into the wind, the positions of the blades on it, and the flow that their
+//! sections meet.
 //!
-//! Axes. x points from the shaft into the flow along the disc, z up along the shaft, y to the left of x; the rotor turns
-//! counter-clockwise seen from above (a clockwise rotor is mirrored before it comes here). The azimuth psi counts from
-//! downwind in the turning sense, so that with flow along the disc the blade advances at psi = 90 deg.
+//! Axes. x points from the shaft into the flow along the disc, z up along the shaft, y to the left
+//! of x; the rotor turns counter-clockwise seen from above (a clockwise rotor is mirrored before it
+//! comes here). The azimuth psi counts from downwind in the turning sense, so that with flow along
+//! the disc the blade advances at psi = 90 deg.
 //!
-//! A blade at psi points along e_r = (-cos psi, -sin psi, 0) and moves along e_t = (sin psi, -cos psi, 0). Outboard of its
-//! hinge at radius h it is turned up by the flap angle beta: the section at the distance s from the hinge lies at
-//! X e_r + Z e_z with X = h + s cos beta, Z = s sin beta, and n = cos beta e_z - sin beta e_r is perpendicular to the blade.
+//! A blade at psi points along e_r = (-cos psi, -sin psi, 0) and moves along e_t = (sin psi, -cos
+//! psi, 0). Outboard of its hinge at radius h it is turned up by the flap angle beta: the section
+//! at the distance s from the hinge lies at X e_r + Z e_z with X = h + s cos beta, Z = s sin beta,
+//! and n = cos beta e_z - sin beta e_r is perpendicular to the blade.
 
 mod axes;
 mod flow;

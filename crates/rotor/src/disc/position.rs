@@ -4,11 +4,13 @@ use super::Azimuth;
 use crate::scalar::Scalar;
 use core::f64::consts::PI;
 
-/// Number of azimuths over which a disc without axial symmetry is averaged. All harmonics of the loads up to the 23rd are
-/// averaged exactly; against 144 azimuths, the thrust of the default rotor at an advance ratio of 0.26 differs by 1e-6.
+/// Number of azimuths over which a disc without axial symmetry is averaged. All harmonics of the
+/// loads up to the 23rd are averaged exactly; against 144 azimuths, the thrust of the default rotor
+/// at an advance ratio of 0.26 differs by 1e-6.
 pub const AZIMUTHS: usize = 24;
 
-/// Flapping of one blade: angle above the plane perpendicular to the shaft, rad, and its rate, rad/s.
+/// Flapping of one blade: angle above the plane perpendicular to the shaft, rad, and its rate,
+/// rad/s.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Flap<S = f64> {
     /// beta, rad.
@@ -55,7 +57,8 @@ impl<S: Scalar> BladePosition<S> {
     }
 }
 
-/// The positions of the blades, or the stations on the azimuth over which the disc is averaged: 1 to `AZIMUTHS`.
+/// The positions of the blades, or the stations on the azimuth over which the disc is averaged: 1
+/// to `AZIMUTHS`.
 #[derive(Debug, Clone, Copy)]
 pub struct BladePositions<S = f64> {
     all: [BladePosition<S>; AZIMUTHS],
@@ -87,7 +90,8 @@ impl<S> std::ops::Deref for BladePositions<S> {
     }
 }
 
-/// Azimuths evenly around the disc, offset by half a step so that none lies exactly where the flow reverses.
+/// Azimuths evenly around the disc, offset by half a step so that none lies exactly where the flow
+/// reverses.
 pub fn evenly_spaced() -> [Azimuth; AZIMUTHS] {
     std::array::from_fn(|i| {
         let psi = 2.0 * PI * (i as f64 + 0.5) / AZIMUTHS as f64;

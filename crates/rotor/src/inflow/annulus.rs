@@ -25,9 +25,9 @@
 //! N 1/2 rho W^2 c cl dr = 4 pi r rho W |sin phi| F U sin(phi - phi0) dr
 //! ```
 //!
-//! Multiplied out, as in Ning 2021 ("Using blade element momentum methods with gradient-based design
-//! optimization", Struct. Multidisc. Optim. 64, p. 991), no divisor can vanish and hover is no
-//! special case. With the local solidity s = N c/(2 pi r),
+//! Multiplied out, as in Ning 2021 ("Using blade element momentum methods with gradient-based
+//! design optimization", Struct. Multidisc. Optim. 64, p. 991), no divisor can vanish and hover is
+//! no special case. With the local solidity s = N c/(2 pi r),
 //!
 //! ```text
 //! R(phi) = 4 F |sin phi| sin(phi - phi0) - s cl(theta - phi) cos(phi - phi0) = 0.
@@ -39,11 +39,10 @@
 //! taken. So there is always a root on the side to which the lift pushes. In descent that side can
 //! hold two more roots under plain momentum theory (the other laws of `descent` have one root): the
 //! rotor as a windmill, with the air still passing upwards. The windmill is taken where R has
-//! changed its sign at one of the angles 1/2, 3/8, 1/4 or 1/8 of phi0 (without lift,
-//! 4 F |sin phi| sin(phi - phi0) is largest at 1/2, and lift that falls with phi shifts the largest R
-//! towards 0). Otherwise the root on the other side of phi = 0 is taken, which continues hover: the
-//! air is pushed down through the disc (plain momentum theory, which is no longer a good theory
-//! there).
+//! changed its sign at one of the angles 1/2, 3/8, 1/4 or 1/8 of phi0 (without lift, 4 F |sin phi|
+//! sin(phi - phi0) is largest at 1/2, and lift that falls with phi shifts the largest R towards 0).
+//! Otherwise the root on the other side of phi = 0 is taken, which continues hover: the air is
+//! pushed down through the disc (plain momentum theory, which is no longer a good theory there).
 //!
 //! # Edgewise flow, cyclic pitch and angular velocity of the hub
 //!
@@ -59,8 +58,9 @@
 //! which is the equation above times cos(phi - phi0) where all azimuths are alike. The lift is
 //! projected on the direction of the induced velocity, and so is the momentum. Where blades are
 //! computed one by one they take the place of the azimuths, and the balance holds at each instant.
-//! At the far end of the bracket the mean flow W vanishes. If strong edgewise flow along a slow disc
-//! leaves the sign of R unchanged even there, that end is taken: the rotor brings its own air to rest.
+//! At the far end of the bracket the mean flow W vanishes. If strong edgewise flow along a slow
+//! disc leaves the sign of R unchanged even there, that end is taken: the rotor brings its own air
+//! to rest.
 
 use super::Momentum;
 use crate::{
@@ -143,8 +143,8 @@ fn mean_residual<S: Scalar>(
         let square = in_plane * in_plane + through * through;
         let local_speed = square.sqrt();
         let alpha = element.pitch + section.pitch - through.atan2(in_plane);
-        // W_psi^2 cos(phi_psi - phi) = W_psi (W_psi cos phi_psi cos phi + W_psi sin phi_psi sin phi);
-        // the first term is perpendicular to the flapped blade.
+        // W_psi^2 cos(phi_psi - phi) = W_psi (W_psi cos phi_psi cos phi + W_psi sin phi_psi sin
+        // phi); the first term is perpendicular to the flapped blade.
         let axial = section.flap_cos * in_plane * cos_inflow;
         let projected = local_speed * (axial + through * sin_inflow);
         sum += element.lift_coefficient(alpha, local_speed * speed) * projected;
@@ -165,7 +165,8 @@ fn induced<S: Scalar>(undisturbed: Undisturbed<S>, inflow_angle: S) -> Induced<S
     }
 }
 
-/// Sine of the angle at which the wake leaves the disc, for Prandtl's F: |sin phi| in momentum theory.
+/// Sine of the angle at which the wake leaves the disc, for Prandtl's F: |sin phi| in momentum
+/// theory.
 fn wake_sine<S: Scalar>(
     flow: &DiscFlow<S>,
     momentum: &Momentum<S>,
@@ -227,7 +228,8 @@ fn is_one_for_all<S: Scalar>(flow: &DiscFlow<S>, positions: &[BladePosition<S>])
         && flow.is_axisymmetric()
 }
 
-/// The inflow angle, rad, with the residual `start` at phi0 = `undisturbed`; `pitch` of the element.
+/// The inflow angle, rad, with the residual `start` at phi0 = `undisturbed`; `pitch` of the
+/// element.
 fn inflow_angle<S: Scalar>(
     undisturbed: S,
     start: S,
@@ -241,7 +243,8 @@ fn inflow_angle<S: Scalar>(
     let found = root(first, pitch.value(), |phi| {
         equation(S::constant(phi)).value()
     })?;
-    // Nothing is induced, or the mean flow is brought to rest: the angle keeps its distance to phi0.
+    // Nothing is induced, or the mean flow is brought to rest: the angle keeps its distance to
+    // phi0.
     let distance = found - undisturbed.value();
     if start.is_negligible(0.0) || f64::abs(distance) > FRAC_PI_2 - FAR_END {
         return Ok(S::at_root(found, |phi| phi - undisturbed - distance));
@@ -339,8 +342,8 @@ pub(super) mod tests {
         }
     }
 
-    /// The induced velocity moves with pitch and climb as its differences do, in hover and climb, at no lift and where
-    /// the table has no corner.
+    /// The induced velocity moves with pitch and climb as its differences do, in hover and climb,
+    /// at no lift and where the table has no corner.
     #[test]
     fn the_derivatives_of_the_solution_are_those_of_its_differences() {
         fn induced<S: Scalar>(airfoil: &Airfoil, pitch: S, climb: S, edgewise: f64) -> S {

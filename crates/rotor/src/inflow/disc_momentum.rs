@@ -1,4 +1,5 @@
-//! Glauert's momentum theory for the disc as a whole, with the linear distribution that the skew of the wake gives.
+//! Glauert's momentum theory for the disc as a whole, with the linear distribution that the skew of
+//! the wake gives.
 
 use super::{Disc, linear::Coefficients, linear::Skew, uniform};
 use crate::{
@@ -8,8 +9,8 @@ use crate::{
 use core::f64::consts::PI;
 
 impl<S: Scalar> Disc<'_, S> {
-    /// Mean induced velocity and its distribution at the blades, in wind axes. Fails if the balance of thrust and momentum
-    /// has no solution, which needs numbers that are not finite.
+    /// Mean induced velocity and its distribution at the blades, in wind axes. Fails if the balance
+    /// of thrust and momentum has no solution, which needs numbers that are not finite.
     pub(crate) fn momentum_field(&self, skew: Skew) -> Result<Field<S>, SolveError> {
         let Self {
             blade,

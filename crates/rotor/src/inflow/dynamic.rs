@@ -1,4 +1,5 @@
-//! What models with states share: the stream through the rotor, and the loading of the disc that drives them.
+//! What models with states share: the stream through the rotor, and the loading of the disc that
+//! drives them.
 
 use super::{
     InflowStates,
@@ -7,7 +8,8 @@ use super::{
 };
 use crate::scalar::Scalar;
 
-/// The flow through a rotor of radius R: along the disc and down through it without induced velocity, m/s.
+/// The flow through a rotor of radius R: along the disc and down through it without induced
+/// velocity, m/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stream<S = f64> {
     /// Along the disc, >= 0.

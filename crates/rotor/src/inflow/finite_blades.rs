@@ -2,8 +2,9 @@
 //! thesis section 3.3.1.
 //!
 //! A blade takes the time T_rev = 2 pi/(N Omega) to where the next one was. In it, its element of
-//! width l meets the air of an area l U_T T_rev, which passes the disc at V + v and takes up twice v.
-//! So the lift L of the element is L = 2 rho l U_T T_rev (V + v) v. The thesis' formula is its root
+//! width l meets the air of an area l U_T T_rev, which passes the disc at V + v and takes up twice
+//! v. So the lift L of the element is L = 2 rho l U_T T_rev (V + v) v. The thesis' formula is its
+//! root
 //!
 //! ```text
 //! v = (-l rho T_rev U_T V + sqrt(2 l rho T_rev U_T L + (l rho T_rev U_T V)^2))/(2 l rho T_rev U_T)
@@ -12,16 +13,16 @@
 //! (its L and signs are lost in the copy at hand). There L is the lift without v; here it is the
 //! lift in v, which makes the equation implicit. V is U_P, the flow through the disc at the blade
 //! without v; each blade has its own. With L = 1/2 rho W c cl U_T (the component of the lift along
-//! the shaft, U_T = W cos phi) U_T cancels, so that the edge of the reversed flow is no special case.
-//! With Prandtl's F and either direction of v
+//! the shaft, U_T = W cos phi) U_T cancels, so that the edge of the reversed flow is no special
+//! case. With Prandtl's F and either direction of v
 //!
 //! ```text
 //! 2 v |U_P + v| = N Omega c W cl sign(U_T)/(4 pi F).
 //! ```
 //!
-//! In hover this is the annulus' momentum balance without swirl. The source says nothing of edgewise
-//! flow V_x. Here |U_P + v| becomes Glauert's resultant sqrt(V_x^2 + (U_P + v)^2) (1926, ARC
-//! R&M 1111), as in the other models, and in descent the mass flow of `descent`; without the
+//! In hover this is the annulus' momentum balance without swirl. The source says nothing of
+//! edgewise flow V_x. Here |U_P + v| becomes Glauert's resultant sqrt(V_x^2 + (U_P + v)^2) (1926,
+//! ARC R&M 1111), as in the other models, and in descent the mass flow of `descent`; without the
 //! resultant the inflow would stay that of hover at any speed. A stopped rotor induces nothing.
 
 use super::{Momentum, annulus::Answer, uniform};
@@ -36,7 +37,8 @@ use core::f64::consts::PI;
 
 /// The velocity that a blade's element induces.
 ///
-/// Of `flow` the rotor speed and the edgewise speed count here. Fails only if numbers are not finite.
+/// Of `flow` the rotor speed and the edgewise speed count here. Fails only if numbers are not
+/// finite.
 pub fn solve<S: Scalar>(
     element: &Element<S>,
     section: &SectionFlow<S>,
@@ -104,8 +106,8 @@ mod tests {
         *,
     };
 
-    /// The flow through a blade that is turned up changes its sign while the blade flaps. Neither the
-    /// momentum nor Prandtl's F jumps there.
+    /// The flow through a blade that is turned up changes its sign while the blade flaps. Neither
+    /// the momentum nor Prandtl's F jumps there.
     #[test]
     fn nothing_jumps_where_the_flow_through_a_flapped_blade_changes_its_sign() {
         let airfoil = airfoil();

@@ -1,8 +1,9 @@
 //! Inflow: the velocity that the rotor induces at its own blades.
 //!
-//! `Inflow` is the choice of model with its data. Each question about a model is one method here with one `match`, so that
-//! the compiler lists what a new model has to answer. A static model is a file and an arm of `induction` and of
-//! `Induction::load`; a dynamic one has states, and an arm in each method.
+//! `Inflow` is the choice of model with its data. Each question about a model is one method here
+//! with one `match`, so that the compiler lists what a new model has to answer. A static model is a
+//! file and an arm of `induction` and of `Induction::load`; a dynamic one has states, and an arm in
+//! each method.
 
 mod annulus;
 mod closed_form;
@@ -94,8 +95,8 @@ pub(crate) enum Induction<'a, S> {
 }
 
 impl Inflow {
-    /// Peters & He's wake up to the power `order` (1 to 6) of the radius, for a rotor of so many blades whose elements lie at
-    /// these radii r/R.
+    /// Peters & He's wake up to the power `order` (1 to 6) of the radius, for a rotor of so many
+    /// blades whose elements lie at these radii r/R.
     pub fn peters_he(order: usize, blades: usize, radius_ratios: &[f64]) -> Self {
         Self::PetersHe(Box::new(Wake::of_blades(order, blades, radius_ratios)))
     }
@@ -109,7 +110,8 @@ impl Inflow {
         }
     }
 
-    /// Whether the model holds only for axial flow past rigid blades, and answers all else as if it were that.
+    /// Whether the model holds only for axial flow past rigid blades, and answers all else as if it
+    /// were that.
     pub fn is_axial_only(&self) -> bool {
         match self {
             Self::AnnulusClosedForm => true,
@@ -175,7 +177,8 @@ impl Inflow {
         }
     }
 
-    /// What is induced at the blades; `states` in wind axes. Fails where the momentum equation has no solution.
+    /// What is induced at the blades; `states` in wind axes. Fails where the momentum equation has
+    /// no solution.
     pub(crate) fn induction<S: Scalar>(
         &self,
         disc: &Disc<S>,
@@ -234,8 +237,8 @@ impl Inflow {
         }
     }
 
-    /// An estimate of how fast the states move towards their equilibrium, 1/s. `solidity` is N c/(pi R), `tip_speed` in m/s;
-    /// `is_individual` where the blades act one by one.
+    /// An estimate of how fast the states move towards their equilibrium, 1/s. `solidity` is N
+    /// c/(pi R), `tip_speed` in m/s; `is_individual` where the blades act one by one.
     pub fn fastest_rate(
         &self,
         states: &InflowStates,
@@ -257,8 +260,8 @@ impl Inflow {
 }
 
 impl<S: Scalar> Induction<'_, S> {
-    /// Computes the loads of element `i`, which `sweep` takes around the disc; answers the mean induced velocity around its
-    /// annulus, m/s.
+    /// Computes the loads of element `i`, which `sweep` takes around the disc; answers the mean
+    /// induced velocity around its annulus, m/s.
     pub(crate) fn load(
         &self,
         disc: &Disc<S>,

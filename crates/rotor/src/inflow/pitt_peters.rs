@@ -1,8 +1,8 @@
 //! Dynamic inflow with three states: Pitt & Peters 1981 (Vertica 5, p. 21), with the mass flow of
 //! Peters & HaQuang 1988 (J. Am. Helicopter Soc. 33(4), p. 64).
 //!
-//! The induced velocity v = v0 + x (vc cos psi + vs sin psi), x = r/R, psi from downwind, follows the
-//! loading of the disc F = (T, integral of x cos psi dT, integral of x sin psi dT) by
+//! The induced velocity v = v0 + x (vc cos psi + vs sin psi), x = r/R, psi from downwind, follows
+//! the loading of the disc F = (T, integral of x cos psi dT, integral of x sin psi dT) by
 //!
 //! ```text
 //! R M dv/dt + V L^-1 v = F/(rho A),   M = diag(8/(3 pi), 16/(45 pi), 16/(45 pi))
@@ -117,8 +117,9 @@ pub fn rate<S: Scalar>(stream: &Stream<S>, field: &Field<S>, loading: &Loading<S
     }
 }
 
-/// An estimate of how fast the states move towards their equilibrium, 1/s, for steps in time: what the wake carries away
-/// plus the damping by the blades with a lift slope of 2 pi. `solidity` is N c/(pi R), `tip_speed` in m/s.
+/// An estimate of how fast the states move towards their equilibrium, 1/s, for steps in time: what
+/// the wake carries away plus the damping by the blades with a lift slope of 2 pi. `solidity` is N
+/// c/(pi R), `tip_speed` in m/s.
 pub fn fastest_rate(stream: &Stream, induced: f64, solidity: f64, tip_speed: f64) -> f64 {
     let gains = gains(stream, induced);
     // The mass flow changes with the mean, too, which counts where it nearly vanishes.
@@ -145,8 +146,8 @@ mod tests {
         }
     }
 
-    /// In hover v0 = T/(2 v0), and the slopes are 2/V of the moments, V = 2 v0: the published gains at
-    /// chi = 0.
+    /// In hover v0 = T/(2 v0), and the slopes are 2/V of the moments, V = 2 v0: the published gains
+    /// at chi = 0.
     #[test]
     fn steady_gains_in_hover() {
         let field = Field {
@@ -165,8 +166,8 @@ mod tests {
         }
     }
 
-    /// Without moments the steady slope is 15 pi/32 tan(chi/2) of the mean, and the thrust is that of
-    /// momentum theory.
+    /// Without moments the steady slope is 15 pi/32 tan(chi/2) of the mean, and the thrust is that
+    /// of momentum theory.
     #[test]
     fn steady_slope_in_forward_flight_is_that_of_the_static_model() {
         for edgewise in [1.0, 5.0, 40.0] {
@@ -194,8 +195,8 @@ mod tests {
         (edgewise * edgewise + through * through).sqrt()
     }
 
-    /// Small changes of the mean in hover decay with the time constant R 8/(3 pi)/(4 v0): the apparent
-    /// mass of a disc over the slope of 2 v^2.
+    /// Small changes of the mean in hover decay with the time constant R 8/(3 pi)/(4 v0): the
+    /// apparent mass of a disc over the slope of 2 v^2.
     #[test]
     fn time_constant_of_the_mean_in_hover() {
         let (v0, radius, small) = (4.0, 2.0, 1e-6);

@@ -31,8 +31,8 @@ pub enum Start {
 const TOLERANCE: f64 = 1e-10;
 
 impl Rotor {
-    /// The state at the start, with blade 1 at the tail. `azimuth_step` (rad) is the largest step. Fails if no steady state is
-    /// found.
+    /// The state at the start, with blade 1 at the tail. `azimuth_step` (rad) is the largest step.
+    /// Fails if no steady state is found.
     pub fn start(
         &self,
         point: &OperatingPoint,
@@ -59,19 +59,19 @@ impl Rotor {
         Ok(state)
     }
 
-    /// Hub loads in steady flight. Where blades show at their azimuths, they are those at the azimuth of the start. Allocates
-    /// a workspace; fails as `start` and `respond` do.
+    /// Hub loads in steady flight. Where blades show at their azimuths, they are those at the
+    /// azimuth of the start. Allocates a workspace; fails as `start` and `respond` do.
     pub fn steady(&self, point: &OperatingPoint) -> Result<HubLoads, SolveError> {
         let mut workspace = Workspace::new(self);
         let state = self.start(point, Start::Steady, PI / 60.0, &mut workspace)?;
         Ok(self.respond(point, &state, &mut workspace)?.hub)
     }
 
-    /// The state at the start with its derivatives along those of `dual`: `found` is what `start` has found at `plain`, which
-    /// has the values of `dual`.
+    /// The state at the start with its derivatives along those of `dual`: `found` is what `start`
+    /// has found at `plain`, which has the values of `dual`.
     ///
-    /// The conditions of the start, inflow that does not change or a state that repeats, are differentiated where they
-    /// hold.
+    /// The conditions of the start, inflow that does not change or a state that repeats, are
+    /// differentiated where they hold.
     pub fn start_along(
         &self,
         (plain, dual): (&OperatingPoint, &OperatingPoint<Dual64>),
@@ -120,8 +120,8 @@ impl Rotor {
     }
 }
 
-/// The operating point with the speed imposed: a torque that does not balance the rotor's leaves no speed steady, so that
-/// the start is steady at the speed that the rotor has there.
+/// The operating point with the speed imposed: a torque that does not balance the rotor's leaves no
+/// speed steady, so that the start is steady at the speed that the rotor has there.
 fn at_imposed_speed(point: &OperatingPoint) -> OperatingPoint {
     OperatingPoint {
         drive: Drive::Speed,

@@ -1,6 +1,7 @@
-//! The state that repeats from blade to blade: after the time in which each blade comes to where the next one was, its
-//! flapping is that of the next one and the inflow is the same. It is found by periodic shooting, as for limit cycles
-//! (Seydel 2010, "Practical Bifurcation and Stability Analysis", ch. 7).
+//! The state that repeats from blade to blade: after the time in which each blade comes to where
+//! the next one was, its flapping is that of the next one and the inflow is the same. It is found
+//! by periodic shooting, as for limit cycles (Seydel 2010, "Practical Bifurcation and Stability
+//! Analysis", ch. 7).
 
 use super::{TOLERANCE, unknowns::Unknowns};
 use crate::{
@@ -10,17 +11,20 @@ use crate::{
 use core::f64::consts::PI;
 use nalgebra::DVector;
 
-/// Step, rad, that is short enough for the slopes with which Newton's method finds the periodic state: the third order leaves
-/// them an error of some 1e-4. What it finds belongs to the steps in flight.
+/// Step, rad, that is short enough for the slopes with which Newton's method finds the periodic
+/// state: the third order leaves them an error of some 1e-4. What it finds belongs to the steps in
+/// flight.
 const STEP_FOR_SLOPES: f64 = PI / 12.0;
 
-/// Maximum number of steps from blade to blade; blades of rotors that turn more slowly start from rest.
+/// Maximum number of steps from blade to blade; blades of rotors that turn more slowly start from
+/// rest.
 const MAX_STEPS: f64 = 3000.0;
 
 /// Maximum number of steps of the search in all. Searches that end well take a tenth.
 const MAX_STEPS_IN_ALL: f64 = 20_000.0;
 
-/// The state that repeats, searched from `guess`; `guess` itself for a rotor that does not turn, or hardly.
+/// The state that repeats, searched from `guess`; `guess` itself for a rotor that does not turn, or
+/// hardly.
 pub(super) fn find(
     rotor: &Rotor,
     point: &OperatingPoint,
@@ -52,7 +56,8 @@ pub(super) fn find(
     Ok(unknowns.state(&found))
 }
 
-/// Number of steps from blade to blade, each at most `longest` (rad); none for a rotor that does not turn, or hardly.
+/// Number of steps from blade to blade, each at most `longest` (rad); none for a rotor that does
+/// not turn, or hardly.
 pub(super) fn steps(
     rotor: &Rotor,
     point: &OperatingPoint,
@@ -68,7 +73,8 @@ pub(super) fn steps(
     (steps <= MAX_STEPS).then_some(steps)
 }
 
-/// The state after the time from blade to blade, with each blade's flapping in the place of the one before it.
+/// The state after the time from blade to blade, with each blade's flapping in the place of the one
+/// before it.
 pub(super) fn passed<S: Scalar>(
     rotor: &Rotor,
     point: &OperatingPoint<S>,
@@ -87,7 +93,8 @@ pub(super) fn passed<S: Scalar>(
     Ok(state)
 }
 
-/// Time in which a blade comes to where the next one was, s; negative for a rotor that turns backwards.
+/// Time in which a blade comes to where the next one was, s; negative for a rotor that turns
+/// backwards.
 fn passage<S: Scalar>(rotor: &Rotor, point: &OperatingPoint<S>) -> S {
     S::constant(2.0 * PI) / (point.speed * f64::from(rotor.geometry().blades))
 }

@@ -5,7 +5,8 @@ use crate::{
 };
 use nalgebra::DVector;
 
-/// Which states are unknown, and their scales: velocities by a speed, flap rates by the rotor's speed.
+/// Which states are unknown, and their scales: velocities by a speed, flap rates by the rotor's
+/// speed.
 pub(super) struct Unknowns {
     inflow: usize,
     flapping: usize,
