@@ -15,7 +15,7 @@ use rotor::{
     compressibility::Compressibility,
     flapping::{Freedom, Hinge},
     geometry::{self, Elements, Geometry, GeometryError, RotorFileError},
-    inflow::{Descent, GroundEffect, Inflow, Skew},
+    inflow::{Descent, ElementInflow, GroundEffect, Inflow, Skew},
     state::MAX_FLAPPING_BLADES,
     tip_loss::TipLoss,
 };
@@ -180,8 +180,8 @@ fn shape(
 
 fn models(values: &Values, geometry: &Geometry, elements: &Elements) -> Result<Models, SetupError> {
     let inflow = match choice(values, integer::MODELS__INFLOW, InflowModel::from_integer)? {
-        InflowModel::Annulus => Inflow::Annulus,
-        InflowModel::AnnulusClosedForm => Inflow::AnnulusClosedForm,
+        InflowModel::Annulus => Inflow::Elements(ElementInflow::Annulus),
+        InflowModel::AnnulusClosedForm => Inflow::Elements(ElementInflow::AnnulusClosedForm),
         InflowModel::Uniform => Inflow::Linear(Skew::Uniform),
         InflowModel::Coleman => Inflow::Linear(Skew::Coleman),
         InflowModel::Drees => Inflow::Linear(Skew::Drees),
@@ -190,7 +190,7 @@ fn models(values: &Values, geometry: &Geometry, elements: &Elements) -> Result<M
         InflowModel::PittPeters => Inflow::Linear(Skew::PittPeters),
         InflowModel::Howlett => Inflow::Linear(Skew::Howlett),
         InflowModel::GlauertHighSpeed => Inflow::Linear(Skew::GlauertHighSpeed),
-        InflowModel::FiniteBlades => Inflow::FiniteBlades,
+        InflowModel::FiniteBlades => Inflow::Elements(ElementInflow::FiniteBlades),
         InflowModel::PittPetersDynamic => Inflow::PittPetersDynamic,
         // The range check of the table keeps the order positive.
         InflowModel::PetersHe => Inflow::peters_he(

@@ -36,7 +36,7 @@
 //!
 //! The modules, each of which imports only from those before it:
 //!
-//! * numbers: `scalar`, `root`, `newton`, `text_file`
+//! * numbers: `scalar`, `root`, `newton`, `error`, `text_file`
 //! * air and sections: `air`, `compressibility`, `airfoil`
 //! * the blade: `geometry`, `tip_loss`, `element`, `blade_loads`, `blade`
 //! * the disc: `disc`, `induced`, `sweep`
@@ -47,6 +47,8 @@
 //!   `response`, `step`, `start`
 
 #![warn(missing_docs)]
+// A new model makes the compiler list what it has to answer.
+#![warn(clippy::wildcard_enum_match_arm)]
 
 pub mod air;
 pub mod airfoil;

@@ -4,7 +4,7 @@ use super::{
     airfoil::{Lift, SectionModel},
     compressibility::Compressibility,
     flapping::Hinge,
-    inflow::{Descent, GroundEffect, Inflow},
+    inflow::{Descent, ElementInflow, GroundEffect, Inflow},
     tip_loss::TipLoss,
 };
 
@@ -32,7 +32,7 @@ impl Default for Models {
     /// Prandtl's tip loss, airfoil tables with Prandtl and Glauert's rule.
     fn default() -> Self {
         Self {
-            inflow: Inflow::Annulus,
+            inflow: Inflow::Elements(ElementInflow::Annulus),
             descent: Descent::Measured,
             ground_effect: GroundEffect::None,
             blades: Blades::Automatic,

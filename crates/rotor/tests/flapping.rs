@@ -13,7 +13,7 @@ use rotor::{
     disc::Flap,
     flapping::{Freedom, Hinge},
     geometry::{Geometry, Rotation},
-    inflow::{Inflow, Skew},
+    inflow::{ElementInflow, Inflow, Skew},
 };
 use std::f64::consts::PI;
 use support::{
@@ -361,9 +361,9 @@ fn flat_blades_on_a_turning_hub_feel_the_gyroscopic_moment_twice_omega_q() {
 #[test]
 fn a_steady_start_in_forward_flight_repeats_itself() {
     for inflow in [
-        Inflow::Annulus,
+        Inflow::Elements(ElementInflow::Annulus),
         Inflow::Linear(Skew::Drees),
-        Inflow::FiniteBlades,
+        Inflow::Elements(ElementInflow::FiniteBlades),
         Inflow::PittPetersDynamic,
         peters_he(3, &geometry(BLADES), 10),
     ] {
@@ -405,9 +405,9 @@ fn turning_the_whole_problem_and_the_blades_turns_forces_and_moments() {
         Vector3::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos, v.z)
     };
     for inflow in [
-        Inflow::Annulus,
+        Inflow::Elements(ElementInflow::Annulus),
         Inflow::Linear(Skew::Drees),
-        Inflow::FiniteBlades,
+        Inflow::Elements(ElementInflow::FiniteBlades),
         Inflow::PittPetersDynamic,
         peters_he(4, &geometry(BLADES), 100),
     ] {

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use rotor::{
     Blades, Models, OperatingPoint, Rotor,
     geometry::{Geometry, Rotation},
-    inflow::{Inflow, Skew},
+    inflow::{ElementInflow, Inflow, Skew},
 };
 use std::f64::consts::PI;
 use support::{
@@ -202,7 +202,10 @@ fn turning_the_whole_problem_turns_forces_and_moments() {
         angular_velocity: turned(point.angular_velocity),
         ..point
     };
-    for inflow in &[Inflow::Annulus, Inflow::Linear(Skew::Drees)] {
+    for inflow in &[
+        Inflow::Elements(ElementInflow::Annulus),
+        Inflow::Linear(Skew::Drees),
+    ] {
         let rotor = ideal(inflow);
         let (a, b) = (rotor.steady(&point).unwrap(), rotor.steady(&other).unwrap());
         assert!((turned(a.force) - b.force).norm() < 1e-12 * a.force.norm());
@@ -221,7 +224,7 @@ fn a_clockwise_rotor_is_the_mirror_image() {
         ..point
     };
     for inflow in &[
-        Inflow::Annulus,
+        Inflow::Elements(ElementInflow::Annulus),
         Inflow::Linear(Skew::Drees),
         Inflow::PittPetersDynamic,
     ] {
@@ -263,7 +266,7 @@ fn the_linear_models_go_over_to_a_rotor_at_rest_without_a_jump() {
 #[test]
 fn slow_edgewise_flow_changes_the_hover_by_its_square_only() {
     for inflow in &[
-        Inflow::Annulus,
+        Inflow::Elements(ElementInflow::Annulus),
         Inflow::Linear(Skew::Uniform),
         Inflow::Linear(Skew::Coleman),
     ] {
@@ -284,7 +287,8 @@ fn slow_edgewise_flow_changes_the_hover_by_its_square_only() {
 fn the_annulus_and_the_uniform_disc_agree_on_thrust_in_forward_flight() {
     for mu in [0.0, 0.05, 0.15, 0.3] {
         let thrust = |inflow| ideal(&inflow).steady(&forward(0.1, mu)).unwrap().force.z;
-        let ratio = thrust(Inflow::Annulus) / thrust(Inflow::Linear(Skew::Uniform));
+        let ratio = thrust(Inflow::Elements(ElementInflow::Annulus))
+            / thrust(Inflow::Linear(Skew::Uniform));
         assert!((0.95..1.05).contains(&ratio), "mu {mu}: {ratio}");
     }
 }
@@ -312,8 +316,8 @@ fn a_disc_at_rest_in_still_air_has_no_loads() {
         ..hover(0.1)
     };
     for inflow in &[
-        Inflow::Annulus,
-        Inflow::AnnulusClosedForm,
+        Inflow::Elements(ElementInflow::Annulus),
+        Inflow::Elements(ElementInflow::AnnulusClosedForm),
         Inflow::Linear(Skew::Drees),
     ] {
         assert_eq!(ideal(inflow).steady(&point).unwrap(), no_loads());

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use rotor::{
     Blades, HubLoads, Models, OperatingPoint, Rotor, State,
     geometry::{Elements, Geometry},
-    inflow::{Descent, Inflow, Skew},
+    inflow::{Descent, ElementInflow, Inflow, Skew},
 };
 use std::f64::consts::PI;
 use support::{flight, hover, hub_loads, no_loads, peters_he, published_airfoil, steady};
@@ -36,10 +36,10 @@ fn rotor(inflow: &Inflow, blades: Blades) -> Rotor {
 
 fn inflows() -> [Inflow; 6] {
     [
-        Inflow::Annulus,
+        Inflow::Elements(ElementInflow::Annulus),
         Inflow::Linear(Skew::Uniform),
         Inflow::Linear(Skew::Howlett),
-        Inflow::FiniteBlades,
+        Inflow::Elements(ElementInflow::FiniteBlades),
         Inflow::PittPetersDynamic,
         peters_he(4, &geometry(), ELEMENTS),
     ]

@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use rotor::{
     Models, Rotor, Start, Workspace,
     geometry::{Geometry, Station},
-    inflow::{Inflow, Skew},
+    inflow::{ElementInflow, Inflow, Skew},
     tip_loss::TipLoss,
 };
 use std::f64::consts::PI;
@@ -38,7 +38,7 @@ fn lift_equals_the_momentum_given_to_the_air() {
         (TipLoss::None, -40.0, 0.05), // windmill
         (TipLoss::None, 0.0, -0.2),
     ] {
-        let rotor = two_blades(Inflow::Annulus, tip_loss, 0.08);
+        let rotor = two_blades(Inflow::Elements(ElementInflow::Annulus), tip_loss, 0.08);
         let point = flight(collective, Vector3::new(0.0, 0.0, climb));
         let mut workspace = Workspace::new(&rotor);
         let state = rotor.start(&point, Start::Steady, STEP, &mut workspace);
@@ -77,7 +77,10 @@ fn the_annulus_tends_to_the_closed_form_for_small_angles() {
                 let rotor = two_blades(inflow, tip_loss, 0.2 * pitch);
                 steady(&rotor, &hover(pitch)).1.force.z
             };
-            (thrust(Inflow::Annulus) / thrust(Inflow::AnnulusClosedForm) - 1.0).abs()
+            (thrust(Inflow::Elements(ElementInflow::Annulus))
+                / thrust(Inflow::Elements(ElementInflow::AnnulusClosedForm))
+                - 1.0)
+                .abs()
         };
         let (coarse, fine) = (difference(0.2), difference(0.1));
         assert!(coarse < 0.03, "{tip_loss:?}: {coarse}");
@@ -110,9 +113,9 @@ fn ideal_twist_without_drag_has_a_figure_of_merit_of_1() {
     for (inflow, below) in [
         // What is left is the cutout: momentum theory knows a whole disc.
         (Inflow::Linear(Skew::Uniform), 1e-3),
-        (Inflow::FiniteBlades, 2e-3),
+        (Inflow::Elements(ElementInflow::FiniteBlades), 2e-3),
         // The annulus also has swirl, which momentum theory leaves out.
-        (Inflow::Annulus, 5e-3),
+        (Inflow::Elements(ElementInflow::Annulus), 5e-3),
     ] {
         let rotor = ideal_rotor(geometry.clone(), ideal_models(inflow.clone()), 400);
         let (_, loads) = steady(&rotor, &hover(tip_pitch));

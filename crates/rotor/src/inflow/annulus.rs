@@ -62,13 +62,14 @@
 //! disc leaves the sign of R unchanged even there, that end is taken: the rotor brings its own air
 //! to rest.
 
-use super::Momentum;
+use super::{Disc, Momentum};
 use crate::{
     disc::{BladePosition, DiscFlow},
-    element::Element,
+    element::{Element, LossIn},
     induced::Induced,
     root::{End, RootError, bracketed},
     scalar::{C, Scalar},
+    sweep::Sweep,
 };
 use core::f64::consts::FRAC_PI_2;
 
@@ -179,6 +180,17 @@ fn wake_sine<S: Scalar>(
     }
     let speed = undisturbed.speed * (inflow_angle - undisturbed.angle).cos().abs();
     momentum.wake_sine_in_descent(flow.climb, axial, speed)
+}
+
+/// See `ElementInflow::load`.
+pub(super) fn load<S: Scalar>(
+    disc: &Disc<S>,
+    element: &Element<S>,
+    sweep: &mut Sweep<S>,
+) -> Result<S, RootError> {
+    let answer = solve(element, disc.flow, disc.positions, &disc.momentum)?;
+    sweep.load_in(LossIn::Momentum, |_, _| Ok(answer.induced))?;
+    Ok(answer.mean_axial)
 }
 
 /// What an element's annulus induces in a flow, averaged over the blade positions.

@@ -22,11 +22,13 @@
 //! Tip loss. Prandtl's F multiplies the momentum, so A becomes A/F (Leishman 2006, eq. 3.126). F
 //! depends on lambda: one bracketed unknown.
 
+use super::Disc;
 use crate::{
     airfoil::{Airfoil, wrapped},
     element::{Element, SectionLoad},
     root::{End, RootError, bracketed},
     scalar::{C, Scalar},
+    sweep::Sweep,
 };
 
 /// The answer of the closed form for a blade element. SI units.
@@ -71,6 +73,18 @@ fn through_flow<S: Scalar>(a: S, climb: S, pitch_flow: S) -> S {
 ///
 /// # Errors
 ///
+/// See `ElementInflow::load`.
+pub(super) fn load<S: Scalar>(
+    disc: &Disc<S>,
+    element: &Element<S>,
+    sweep: &mut Sweep<S>,
+) -> Result<S, RootError> {
+    let rotation = disc.flow.rotation * element.radius;
+    let answer = solve(element, rotation, disc.flow.climb)?;
+    sweep.take(&answer.load, answer.induced);
+    Ok(answer.mean_induced)
+}
+
 /// Where the data of the element or the flow are not finite, so that Prandtl's F has no solution.
 pub fn solve<S: Scalar>(
     element: &Element<S>,

@@ -25,15 +25,32 @@
 //! ARC R&M 1111), as in the other models, and in descent the mass flow of `descent`; without the
 //! resultant the inflow would stay that of hover at any speed. A stopped rotor induces nothing.
 
-use super::{Momentum, annulus::Answer, uniform};
+use super::{Disc, Momentum, annulus::Answer, uniform};
 use crate::{
     disc::{DiscFlow, SectionFlow},
-    element::Element,
+    element::{Element, LossIn},
     induced::Induced,
     root::RootError,
     scalar::Scalar,
+    sweep::Sweep,
 };
-use core::f64::consts::PI;
+use core::{cell::Cell, f64::consts::PI};
+
+/// See `ElementInflow::load`.
+pub(super) fn load<S: Scalar>(
+    disc: &Disc<S>,
+    element: &Element<S>,
+    sweep: &mut Sweep<S>,
+) -> Result<S, RootError> {
+    let mean = Cell::new(S::zero());
+    sweep.load_in(LossIn::Momentum, |_, position| {
+        let section = disc.flow.at_section(element.radius, position);
+        let answer = solve(element, &section, disc.flow, &disc.momentum)?;
+        mean.set(mean.get() + answer.mean_axial / disc.positions.len() as f64);
+        Ok(answer.induced)
+    })?;
+    Ok(mean.get())
+}
 
 /// The velocity that a blade's element induces.
 ///

@@ -1,15 +1,20 @@
 //! Inflow: the velocity that the rotor induces at its own blades.
 //!
-//! `Inflow` is the choice of model with its data. Each question about a model is one method here
-//! with one `match`, so that the compiler lists what a new model has to answer. A static model is a
-//! file and an arm of `induction` and of `Induction::load`; a dynamic one has states, and an arm in
-//! each method.
+//! `Inflow` is the choice of model with its data. Each question about a model is one method with one
+//! `match`, so that the compiler lists what a new model has to answer:
+//!
+//! * a model in which each element finds its induced velocity is a file and an arm of
+//!   `ElementInflow::load`;
+//! * a linear distribution over the disc is an arm of `Skew::coefficients`;
+//! * a model with states is a file and an arm in each method of `Inflow`.
 
 mod annulus;
 mod closed_form;
 mod descent;
 mod disc_momentum;
+mod disc_problem;
 mod dynamic;
+mod elements;
 mod finite_blades;
 mod ground;
 mod linear;
@@ -19,15 +24,16 @@ mod pitt_peters;
 mod uniform;
 
 pub use descent::{Descent, FlowState};
+pub use disc_problem::Disc;
 pub use dynamic::{DiscLoading, Stream};
+pub use elements::ElementInflow;
 pub use ground::{Ground, GroundEffect};
 pub use linear::Skew;
 pub use momentum::Momentum;
 pub use peters_he::{MAX_ORDER, Wake};
 
 use super::{
-    blade::Blade,
-    disc::{AZIMUTHS, BladePosition, DiscFlow, WindAxes},
+    disc::{AZIMUTHS, WindAxes},
     element::{Element, LossIn},
     error::SolveError,
     induced::{Field, Induced},
@@ -35,7 +41,6 @@ use super::{
     sweep::Sweep,
 };
 use peters_he::Harmonics;
-use std::cell::Cell;
 
 /// Maximum number of states of an inflow model.
 pub const MAX_STATES: usize = peters_he::MAX_STATES;
@@ -46,43 +51,20 @@ pub type InflowStates<S = f64> = [S; MAX_STATES];
 /// An inflow model with its data.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Inflow {
-    /// Blade-element momentum theory in each annulus, all angles.
-    Annulus,
-    /// Small angles and a linear lift slope, axial flow only: thesis eq. (94).
-    AnnulusClosedForm,
+    /// Each element has its own momentum balance.
+    Elements(ElementInflow),
     /// Glauert's momentum theory for the disc as a whole, with a linear distribution over it.
     Linear(Skew),
-    /// Each blade sweeps its own air: Knight & Hefner, Dahl.
-    FiniteBlades,
     /// Pitt & Peters' three states, which take time to build up.
     PittPetersDynamic,
     /// Peters & He's generalised dynamic wake.
     PetersHe(Box<Wake>),
 }
 
-/// The disc at an operating point: all that an inflow model needs to know of the rotor.
-#[derive(Debug, Clone, Copy)]
-pub struct Disc<'a, S = f64> {
-    /// The blade, element by element.
-    pub blade: Blade<'a, S>,
-    /// Motion of the disc through the air, in wind axes.
-    pub flow: &'a DiscFlow<S>,
-    /// Blades, or stations on the azimuth over which the disc is averaged.
-    pub positions: &'a [BladePosition<S>],
-    /// Whether the positions are those of the blades.
-    pub is_individual: bool,
-    /// Momentum theory in descent and near the ground.
-    pub momentum: Momentum<S>,
-}
-
 /// What is induced at the blades at an operating point, in wind axes.
 pub(crate) enum Induction<'a, S> {
-    /// Each annulus has its own momentum balance.
-    Annulus,
-    /// Each annulus by the closed form.
-    ClosedForm,
-    /// Each blade has its own momentum balance.
-    FiniteBlades,
+    /// Each element finds it by itself.
+    Elements(ElementInflow),
     /// A linear distribution over the disc.
     Field(Field<S>),
     /// Peters & He's series.
@@ -104,7 +86,7 @@ impl Inflow {
     /// Number of states.
     pub fn state_count(&self) -> usize {
         match self {
-            Self::Annulus | Self::AnnulusClosedForm | Self::Linear(_) | Self::FiniteBlades => 0,
+            Self::Elements(_) | Self::Linear(_) => 0,
             Self::PittPetersDynamic => pitt_peters::STATES,
             Self::PetersHe(wake) => wake.len(),
         }
@@ -114,19 +96,15 @@ impl Inflow {
     /// were that.
     pub fn is_axial_only(&self) -> bool {
         match self {
-            Self::AnnulusClosedForm => true,
-            Self::Annulus
-            | Self::Linear(_)
-            | Self::FiniteBlades
-            | Self::PittPetersDynamic
-            | Self::PetersHe(_) => false,
+            Self::Elements(model) => model.is_axial_only(),
+            Self::Linear(_) | Self::PittPetersDynamic | Self::PetersHe(_) => false,
         }
     }
 
     /// Whether all azimuths are alike in these states, but for `limit` m/s.
     pub fn is_axisymmetric<S: Scalar>(&self, states: &InflowStates<S>, limit: f64) -> bool {
         match self {
-            Self::Annulus | Self::AnnulusClosedForm | Self::Linear(_) | Self::FiniteBlades => true,
+            Self::Elements(_) | Self::Linear(_) => true,
             Self::PittPetersDynamic => Field::from_states(states).is_axisymmetric(limit),
             Self::PetersHe(wake) => wake.is_axisymmetric(states, limit),
         }
@@ -139,9 +117,7 @@ impl Inflow {
         axes: &WindAxes<S>,
     ) -> InflowStates<S> {
         match self {
-            Self::Annulus | Self::AnnulusClosedForm | Self::Linear(_) | Self::FiniteBlades => {
-                [S::zero(); MAX_STATES]
-            }
+            Self::Elements(_) | Self::Linear(_) => [S::zero(); MAX_STATES],
             Self::PittPetersDynamic => {
                 pitt_peters::to_states(&Field::from_states(states).into_wind(axes))
             }
@@ -156,9 +132,7 @@ impl Inflow {
         axes: &WindAxes<S>,
     ) -> InflowStates<S> {
         match self {
-            Self::Annulus | Self::AnnulusClosedForm | Self::Linear(_) | Self::FiniteBlades => {
-                [S::zero(); MAX_STATES]
-            }
+            Self::Elements(_) | Self::Linear(_) => [S::zero(); MAX_STATES],
             Self::PittPetersDynamic => {
                 pitt_peters::to_states(&Field::from_states(states).out_of_wind(axes))
             }
@@ -169,9 +143,7 @@ impl Inflow {
     /// States whose induced velocity is about that of a linear field, in the same axes.
     pub fn first_guess(&self, field: &Field) -> InflowStates {
         match self {
-            Self::Annulus | Self::AnnulusClosedForm | Self::Linear(_) | Self::FiniteBlades => {
-                [0.0; MAX_STATES]
-            }
+            Self::Elements(_) | Self::Linear(_) => [0.0; MAX_STATES],
             Self::PittPetersDynamic => pitt_peters::to_states(field),
             Self::PetersHe(wake) => wake.like(field),
         }
@@ -186,9 +158,7 @@ impl Inflow {
     ) -> Result<Induction<'_, S>, SolveError> {
         let edgewise = disc.flow.edgewise;
         Ok(match self {
-            Self::Annulus => Induction::Annulus,
-            Self::AnnulusClosedForm => Induction::ClosedForm,
-            Self::FiniteBlades => Induction::FiniteBlades,
+            Self::Elements(model) => Induction::Elements(*model),
             Self::Linear(skew) => Induction::Field(disc.momentum_field(*skew)?),
             Self::PittPetersDynamic => {
                 let field = Field::from_states(states);
@@ -218,9 +188,7 @@ impl Inflow {
         stream: &Stream<S>,
     ) -> InflowStates<S> {
         match self {
-            Self::Annulus | Self::AnnulusClosedForm | Self::Linear(_) | Self::FiniteBlades => {
-                [S::zero(); MAX_STATES]
-            }
+            Self::Elements(_) | Self::Linear(_) => [S::zero(); MAX_STATES],
             Self::PittPetersDynamic => {
                 let loading = pitt_peters::Loading::of(loading, stream.radius);
                 pitt_peters::to_states(&pitt_peters::rate(
@@ -248,7 +216,7 @@ impl Inflow {
         is_individual: bool,
     ) -> f64 {
         match self {
-            Self::Annulus | Self::AnnulusClosedForm | Self::Linear(_) | Self::FiniteBlades => 0.0,
+            Self::Elements(_) | Self::Linear(_) => 0.0,
             Self::PittPetersDynamic => {
                 pitt_peters::fastest_rate(stream, states[0], solidity, tip_speed)
             }
@@ -269,34 +237,13 @@ impl<S: Scalar> Induction<'_, S> {
         element: &Element<S>,
         sweep: &mut Sweep<S>,
     ) -> Result<S, SolveError> {
-        let unsolved = |cause| SolveError::Annulus {
-            radius_ratio: element.radius_ratio(),
-            cause,
-        };
         match self {
-            Self::Annulus => {
-                let answer = annulus::solve(element, disc.flow, disc.positions, &disc.momentum)
-                    .map_err(unsolved)?;
-                sweep.load_in(LossIn::Momentum, |_, _| Ok(answer.induced))?;
-                Ok(answer.mean_axial)
-            }
-            Self::ClosedForm => {
-                let rotation = disc.flow.rotation * element.radius;
-                let answer = closed_form::solve(element, rotation, disc.flow.climb);
-                let answer = answer.map_err(unsolved)?;
-                sweep.take(&answer.load, answer.induced);
-                Ok(answer.mean_induced)
-            }
-            Self::FiniteBlades => {
-                let mean = Cell::new(S::zero());
-                sweep.load_in(LossIn::Momentum, |_, position| {
-                    let section = disc.flow.at_section(element.radius, position);
-                    let answer = finite_blades::solve(element, &section, disc.flow, &disc.momentum)
-                        .map_err(unsolved)?;
-                    mean.set(mean.get() + answer.mean_axial / disc.positions.len() as f64);
-                    Ok(answer.induced)
-                })?;
-                Ok(mean.get())
+            Self::Elements(model) => {
+                let load = model.load(disc, element, sweep);
+                load.map_err(|cause| SolveError::Annulus {
+                    radius_ratio: element.radius_ratio(),
+                    cause,
+                })
             }
             Self::Field(field) => {
                 sweep.load_in(LossIn::Lift, |_, position| {
@@ -326,7 +273,7 @@ impl<S: Scalar> Induction<'_, S> {
         loading: &mut InflowStates<S>,
     ) {
         match self {
-            Self::Annulus | Self::ClosedForm | Self::FiniteBlades | Self::Field(_) => {}
+            Self::Elements(_) | Self::Field(_) => {}
             Self::Series {
                 wake, harmonics, ..
             } => {

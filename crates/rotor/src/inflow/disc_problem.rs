@@ -1,0 +1,22 @@
+//! The disc at an operating point as the inflow models see it.
+
+use super::Momentum;
+use crate::{
+    blade::Blade,
+    disc::{BladePosition, DiscFlow},
+};
+
+/// The disc at an operating point: all that an inflow model needs to know of the rotor.
+#[derive(Debug, Clone, Copy)]
+pub struct Disc<'a, S = f64> {
+    /// The blade, element by element.
+    pub blade: Blade<'a, S>,
+    /// Motion of the disc through the air, in wind axes.
+    pub flow: &'a DiscFlow<S>,
+    /// Blades, or stations on the azimuth over which the disc is averaged.
+    pub positions: &'a [BladePosition<S>],
+    /// Whether the positions are those of the blades.
+    pub is_individual: bool,
+    /// Momentum theory in descent and near the ground.
+    pub momentum: Momentum<S>,
+}
