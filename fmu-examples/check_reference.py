@@ -127,10 +127,13 @@ def main():
         "--interface",
         choices=["CoSimulation", "ModelExchange"],
         default="CoSimulation",
-        help="what FMPy flies [default: %(default)s]",
+        help="through which FMPy flies [default: %(default)s]",
     )
     parser.add_argument(
-        "--tolerance", type=float, default=TOLERANCE, help="in %% [default: %(default)s]"
+        "--tolerance",
+        type=float,
+        default=TOLERANCE,
+        help="largest deviation, %% [default: %(default)s]",
     )
     arguments = parser.parse_args()
 

@@ -89,8 +89,8 @@ def fly(rotor, task, _resources):
 def halves():
     """The law of descent fitted to half of the runs, and its errors on either half.
 
-    Errors are those of v/v_h, each run divided by its own hover value, and what they are worth in
-    deg of collective to a rotor at the thrust of the run: 3/2 of the change in inflow ratio, from
+    Errors are those of v/v_h, each run divided by its own hover value, and the equivalent ones in
+    deg of collective at the thrust of the run: 3/2 of the change in inflow ratio, from
     CT = sigma a/2 (theta_0.75/3 - lambda/2).
     """
     sys.path.insert(0, str(LAW_FOLDER))
@@ -190,7 +190,7 @@ def report(flown, figures):
         "descent.hover-torque": hover_torques(data),
         "descent.models": flown["measured uniform"]["models"],
         "descent.halves": page.table(
-            ["fitted to", "judged on", "RMS of v/v_h", "worth in collective, deg RMS"],
+            ["fitted to", "judged on", "RMS of v/v_h", "equivalent collective, deg RMS"],
             halves_table,
             2,
         ),
