@@ -79,7 +79,7 @@ fn random_block(random: &mut Random) -> RotorBlock {
         set(&mut block, real::FLAPPING__DELTA3, 0.2);
         set(&mut block, real::FLAPPING__HINGE_SPRING, 5.0);
     } else if blades == 1 {
-        // One blade and the mean over its turn are different rotors: automatic jumps between them.
+        // One blade and its azimuth average are different rotors: automatic jumps between them.
         choose(&mut block, integer::MODELS__BLADES, "individual");
     }
     match random.below(4) {

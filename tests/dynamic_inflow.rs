@@ -1,6 +1,5 @@
-//! The inflow of Pitt & Peters with its three states, in the disc's mean over a turn: where it
-//! stands still, how it gets there, and that the answer does not depend on how the importer cuts
-//! time.
+//! Pitt & Peters' inflow, with loads averaged over one revolution: where its three states stand
+//! still, how they get there, and that the answer does not depend on how the importer cuts time.
 
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]

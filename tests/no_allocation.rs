@@ -101,7 +101,7 @@ fn set_inputs(c: fmi2Component, i: i32) -> fmi2Status {
     unsafe { fmi2SetReal(c, INPUTS.as_ptr(), INPUTS.len(), commands.as_ptr()) }
 }
 
-/// Reads loads, of which the first is the thrust.
+/// Reads the outputs and answers the thrust.
 fn thrust(c: fmi2Component) -> f64 {
     let mut values = [0.0; 3];
     // SAFETY: the instance lives, and the arrays are as long as is said.

@@ -1,11 +1,13 @@
-//! Every combination of the models, flown: each flight is finite or ends in one clear error, and
-//! the same flight gives the same bits again.
+//! Every combination of the models, flown: each flight is finite or ends in one clear error, and the
+//! same flight gives the same bits again.
 //!
-//! The enumerations, their values and the switches are read from the table of variables, so that a
-//! model that is added to it is flown as well. All combinations of those that shape the solution
-//! fly once, in a flight and with the other choices of a sequence that spreads evenly, so that each
-//! pair of values meets hundreds of times; and all flights are flown with each inflow model, with
-//! and without flapping.
+//! The enumerations, their values and the switches are read from the table of variables, so that new
+//! models are flown as well. Two sets of flights:
+//!
+//! * Each combination of the choices that shape the solution flies once. A sequence that spreads
+//!   evenly picks the flight and the other choices, so that each pair of values meets hundreds of
+//!   times.
+//! * Each flight is flown with each inflow model, with and without flapping.
 
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
@@ -56,8 +58,7 @@ const LEVELS: [usize; 9] = [
     TORQUE.len(),
 ];
 
-/// The choices that shape the solution; those that only shape the sections or the frame are not
-/// among them.
+/// The choices that shape the solution. The others shape only the sections or the frame.
 const STRUCTURE: [&str; 8] = [
     "models.inflow",
     "models.blades",
@@ -69,9 +70,9 @@ const STRUCTURE: [&str; 8] = [
     "initialization",
 ];
 
-/// Largest share, in percent, of the flights for which no steady state is found, and of all that
-/// have no solution.
+/// Largest share of the flights, in percent, for which no steady state is found.
 const MOST_WITHOUT_STEADY_STATE: f64 = 0.25;
+/// Largest share of the flights, in percent, without a solution of any kind.
 const MOST_WITHOUT_SOLUTION: f64 = 0.3;
 
 /// A parameter with a few values.
@@ -304,8 +305,8 @@ impl Sweep {
         texts.join(", ")
     }
 
-    /// Whether the parameters are documented to be refused: blades that flap as a mean over a turn
-    /// or in the closed form.
+    /// Whether the documentation says that the parameters are refused: blades that flap in the disc or
+    /// in the closed form, and the closed form near the ground.
     fn expected_refusal(&self, run: &Run) -> bool {
         let has = |name: &str, value: &str| self.has(run, name, value);
         let flaps = has(boolean::FLAPPING__ENABLED.variable().name, "true");

@@ -514,8 +514,8 @@ fn bounds_are_as_described() {
     }
 }
 
-/// Rates by number: with loads of blades that act one by one or as an average over the turn, all
-/// changes are slower than the bounds, and in hover they die away.
+/// Eigenvalues of the rates, by differences, with the loads of individual blades or with their
+/// azimuth average: all are slower than the bounds, and in hover they die away.
 #[test]
 fn fastest_rate_bounds_the_modes() {
     let ratios: Vec<_> = (0..40).map(|i| (i as f64 + 0.5) / 40.0).collect();
