@@ -37,18 +37,18 @@ mod tests {
     #[test]
     fn the_text_counts_before_the_name_and_c81_is_the_rest() {
         for (name, text, expected) in [
-            ("a.txt", "#1\n", 0),
-            ("a.polar", "#1\n", 0),
-            ("a.polar", "polar 1\n", 1),
-            ("a.POLAR", "", 1),
-            ("a.c81", "#12", 2),
-            ("a.C81", "", 2),
-            ("polar", "", 2),
-            ("a", "", 2),
+            ("a.txt", "#1\n", combi::FORMAT),
+            ("a.polar", "#1\n", combi::FORMAT),
+            ("a.polar", "polar 1\n", polar::FORMAT),
+            ("a.POLAR", "", polar::FORMAT),
+            ("a.c81", "#12", c81::FORMAT),
+            ("a.C81", "", c81::FORMAT),
+            ("polar", "", c81::FORMAT),
+            ("a", "", c81::FORMAT),
         ] {
             let found = detected(Path::new(name), text);
-            let parse = FORMATS[expected].parse;
-            assert!(std::ptr::fn_addr_eq(found.parse, parse), "{name} {text}");
+            let expected = expected.parse;
+            assert!(std::ptr::fn_addr_eq(found.parse, expected), "{name} {text}");
         }
     }
 }
