@@ -30,14 +30,15 @@ impl<S: Scalar> Workspace<S> {
         workspace
     }
 
-    /// As after `new`; allocates only if the last rotor had fewer elements.
+    /// Makes room for a rotor, whose lift ends where its shape says; allocates only if the last
+    /// rotor had fewer elements. The loads keep what they hold: each computation writes them all.
     pub(crate) fn prepare(&mut self, rotor: &Rotor) {
         let shares = rotor.lifting_shares();
+        let shares = shares.iter().map(|share| S::constant(*share));
         self.lifting_shares.clear();
-        self.lifting_shares
-            .extend(shares.iter().map(|share| S::constant(*share)));
-        self.elements.clear();
-        self.elements.resize(shares.len(), ElementLoads::zero());
+        self.lifting_shares.extend(shares);
+        self.elements
+            .resize(rotor.elements().len(), ElementLoads::zero());
     }
 
     pub(crate) fn elements(&self) -> &[ElementLoads<S>] {
