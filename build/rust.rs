@@ -54,7 +54,7 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
         writeln!(out, "pub mod {module} {{")?;
         writeln!(out, "    use super::{reference};")?;
         for (i, v) in variables.iter().enumerate() {
-            writeln!(out, "    /// {}", v.description)?;
+            writeln!(out, "    /// {}", doc(&v.description))?;
             writeln!(
                 out,
                 "    pub const {}: {reference} = {reference}::at({i});",
@@ -67,7 +67,7 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
             };
             let elements = variables.iter().filter(|other| row(other) == row(v));
             let names: Vec<String> = elements.map(|v| constant_name(&v.name)).collect();
-            writeln!(out, "    /// {}", v.description)?;
+            writeln!(out, "    /// {}", doc(&v.description))?;
             writeln!(
                 out,
                 "    pub const {}: [{reference}; {}] = [{}];",
@@ -102,11 +102,11 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
     }
     writeln!(out, "];")?;
     for enumeration in &table.enumerations {
-        writeln!(out, "/// {}", enumeration.description)?;
+        writeln!(out, "/// {}", doc(&enumeration.description))?;
         writeln!(out, "#[derive(Clone, Copy, Debug, PartialEq, Eq)]")?;
         writeln!(out, "pub enum {} {{", enumeration.name)?;
         for item in &enumeration.items {
-            writeln!(out, "    /// {}", item.description)?;
+            writeln!(out, "    /// {}", doc(&item.description))?;
             writeln!(out, "    {} = {},", camel(&item.name), item.value)?;
         }
         writeln!(out, "}}")?;
@@ -219,4 +219,9 @@ fn camel(name: &str) -> String {
         .next()
         .map(|first| first.to_uppercase().chain(chars).collect())
         .unwrap_or_default()
+}
+
+/// A description as documentation of Rust, in which brackets are no links.
+fn doc(description: &str) -> String {
+    description.replace('[', "\\[").replace(']', "\\]")
 }
