@@ -9,6 +9,7 @@ use super::{
     shown::shown,
     variables::{BOOLEANS, Causality, INTEGERS, REALS, STATES, STRINGS, Variable},
 };
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 /// Why a value was not read or set; nothing has changed then.
@@ -64,7 +65,7 @@ pub enum ValueError {
 }
 
 /// What may change.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Stage {
     /// Inputs and all parameters.
     Configuring,
@@ -75,7 +76,7 @@ pub enum Stage {
 }
 
 /// The values by value reference.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Values {
     pub reals: Reals,
     pub integers: Integers,

@@ -10,6 +10,7 @@ use crate::block::{
     BlockError, PerVariable, RotorBlock,
     variables::{STRINGS, StringRef},
 };
+use serde::{Deserialize, Serialize};
 use std::{
     any::Any,
     ffi::CString,
@@ -31,7 +32,7 @@ impl Marked for Instance {
 }
 
 /// Time as the importer keeps it, s.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Experiment {
     pub time: f64,
     pub stop_time: Option<f64>,

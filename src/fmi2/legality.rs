@@ -10,9 +10,10 @@
 //! (condition 8), where it leads from one event to the next; this FMU has continuous states.
 
 use super::types::{FMI2_CO_SIMULATION, FMI2_MODEL_EXCHANGE, fmi2Enumeration};
+use serde::{Deserialize, Serialize};
 
 /// The interface for which an instance was made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Interface {
     CoSimulation,
     ModelExchange,

@@ -3,7 +3,7 @@
 //!
 //! * `version.rs`, `creation.rs`, `life_cycle.rs`: the version; instances; from the experiment to the end
 //! * `get_set.rs`: getting and setting values of variables
-//! * `fmu_state.rs`: getting, setting and serializing the complete state
+//! * `fmu_state.rs`, `serialized_state.rs`: getting and setting the complete state, and its form as bytes
 //! * `directional.rs`: derivatives along a direction
 //! * `co_simulation.rs`, `model_exchange.rs`: the functions of one interface
 //! * `logger.rs`: messages to the importer
@@ -26,5 +26,6 @@ pub mod life_cycle;
 pub mod logger;
 pub mod model_exchange;
 mod resource_location;
+mod serialized_state;
 pub mod types;
 pub mod version;
