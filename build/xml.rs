@@ -249,8 +249,8 @@ fn start_text(table: &Table, v: &Variable) -> Option<String> {
     })
 }
 
-/// Outputs and derivatives with the inputs and states on which they depend, and all of these and the states
-/// as initial unknowns with the inputs and parameters on which they depend at the start.
+/// Outputs and derivatives with the inputs and states on which they depend, and all of these and
+/// the states as initial unknowns with the inputs and parameters on which they depend at the start.
 fn model_structure(xml: &mut Xml, table: &Table) -> io::Result<()> {
     let is_output = |v: &&Variable| v.causality == "output";
     let is_initial =
@@ -283,8 +283,8 @@ fn knowns<'a>(table: &'a Table, v: &Variable) -> Vec<&'a Variable> {
     all.filter(|known| names(&v.depends_on, known)).collect()
 }
 
-/// The inputs and parameters on which a variable depends at the start: its own, and those of the states on
-/// which it depends.
+/// The inputs and parameters on which a variable depends at the start: its own, and those of the
+/// states on which it depends.
 fn initial_knowns<'a>(table: &'a Table, v: &Variable) -> Vec<&'a Variable> {
     if v.nominal.is_some() {
         return from_start(table, v);

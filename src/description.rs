@@ -1,4 +1,5 @@
-//! The FMU's face as the build made it from modelDescription/: for the program that packages the FMU.
+//! The FMU's face as the build made it from modelDescription/: for the program that packages the
+//! FMU.
 
 /// modelDescription.xml, whose GUID is that of this library.
 pub const XML: &str = include_str!(concat!(env!("OUT_DIR"), "/modelDescription.xml"));

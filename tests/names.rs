@@ -1,5 +1,5 @@
-//! The names of variables, types and enumeration items as importers take them into their own languages.
-//! Once published they are a contract.
+//! The names of variables, types and enumeration items as importers take them into their own
+//! languages. Once published they are a contract.
 
 use helicopter_rotor::description::XML;
 use roxmltree::Document;
@@ -95,8 +95,8 @@ const MATLAB_KEYWORDS: [&str; 20] = [
 /// MATLAB's `namelengthmax`.
 const MATLAB_LENGTH: usize = 63;
 
-/// Every enumeration with its items, which have the numbers 1, 2, 3 ... New items are appended here as
-/// in modelDescription/variables.toml; nothing else in this table may ever change.
+/// Every enumeration with its items, which have the numbers 1, 2, 3 ... New items are appended here
+/// as in modelDescription/variables.toml; nothing else in this table may ever change.
 const ENUMERATIONS: [(&str, &[&str]); 12] = [
     (
         "InflowModel",

@@ -1,5 +1,4 @@
-//! All of a block that a simulation needs to go on from: copied, put back, and in a form that can be
-//! serialized.
+//! Everything that a simulation needs to continue from: copied from a block and put back into one.
 
 use super::{
     BlockError, Fresh, RotorBlock,
@@ -29,7 +28,7 @@ pub struct Snapshot {
     flow_state: i32,
 }
 
-/// What a snapshot holds that no block can hold.
+/// Why a deserialized snapshot was not written by a block.
 #[derive(Debug, Error, Clone, PartialEq, Eq)]
 #[error("it holds a value that {0} cannot have")]
 pub struct Contradiction(&'static str);
@@ -48,12 +47,13 @@ impl RotorBlock {
         }
     }
 
-    /// Goes on from a copy, also from another block's. If its fixed parameters differ from those of this block,
-    /// the rotor is made anew from the files that they name; if that fails, nothing has changed.
+    /// Continues from a copy, which may be another block's. If its fixed parameters differ from
+    /// this block's, the rotor is built again from the files that they name; if that fails, nothing
+    /// has changed.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), BlockError> {
         let is_same = have_equal_shape(&self.values, &snapshot.values);
         if snapshot.stage == Stage::Configuring {
-            // As before any initialisation: the rotor is made when it is needed.
+            // As before initialisation, the rotor is built when it is needed.
             if !is_same {
                 self.rotor = None;
             }
@@ -75,7 +75,7 @@ impl RotorBlock {
     }
 }
 
-/// Whether the fixed parameters are equal, so that they make the same rotor.
+/// Whether the fixed parameters are equal, so that they describe the same rotor.
 fn have_equal_shape(a: &Values, b: &Values) -> bool {
     let reals = REALS.iter().zip(a.reals.iter().zip(&b.reals));
     let integers = INTEGERS.iter().zip(a.integers.iter().zip(&b.integers));
@@ -133,7 +133,7 @@ impl Snapshot {
         {
             return wrong("the integration");
         }
-        // The states stand among the values from the end of the initialisation on.
+        // Once initialised, the block shows its states among the values.
         let mut reals = self.values.reals;
         write_states(&mut reals, &self.state);
         let is_shown = read_states(&self.values.reals) == read_states(&reals);
@@ -148,7 +148,7 @@ fn is_finite(state: &State) -> bool {
     to_vector(state).iter().all(|value| value.is_finite())
 }
 
-// ------------------------------------------------------------------ how rotor's types are serialized
+// ------------------------------------------------------------------ serialized types of rotor
 
 /// A state as the vector of the continuous states.
 mod vector {

@@ -10,8 +10,8 @@ use super::{
 };
 
 /// # Safety
-/// As in the standard: `vUnknown_ref` and `dvUnknown` have `nUnknown` elements, `vKnown_ref` and `dvKnown`
-/// have `nKnown`.
+/// As in the standard: `vUnknown_ref` and `dvUnknown` have `nUnknown` elements, `vKnown_ref` and
+/// `dvKnown` have `nKnown`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     c: fmi2Component,

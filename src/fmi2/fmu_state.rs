@@ -1,6 +1,7 @@
-//! The complete state of an instance: fmi2Functions.h, "Getting and setting the internal FMU state".
+//! The complete state of an instance: fmi2Functions.h, "Getting and setting the internal FMU
+//! state".
 //!
-//! A state is a copy of what the block knows, of the mode and of the time.
+//! A state is a copy of everything the block knows, of the mode and of the time.
 
 #![allow(non_snake_case)]
 
@@ -34,11 +35,11 @@ impl FmuState {
         }
     }
 
-    /// Makes an instance go on from here; if that is refused, it has not changed.
+    /// Makes an instance continue from this state. If that fails, the instance has not changed.
     fn apply(&self, instance: &mut Instance) -> Outcome {
         if self.interface != instance.interface {
             return refuse(
-                "the state is one of the other interface (Co-Simulation or Model Exchange); set it on an instance of its own"
+                "the state belongs to the other interface (Co-Simulation or Model Exchange); set it on an instance of that interface"
                     .into(),
             );
         }
@@ -69,15 +70,13 @@ unsafe fn living<'a>(pointer: fmi2FMUstate) -> Result<&'a mut FmuState, Message>
     // SAFETY: passed on from the caller.
     let state = unsafe { handle::living(pointer) };
     let mut state = state.ok_or_else(|| {
-        Message::Error(
-            "FMUstate points to no state of this FMU; pass one that was not freed".into(),
-        )
+        Message::Error("FMUstate is not a state of this FMU, or it was freed".into())
     })?;
     // SAFETY: a living state, and by the contract above nothing else refers to it.
     Ok(unsafe { state.as_mut() })
 }
 
-/// The importer's variable for a state: null, or the state that it has there.
+/// The importer's variable for a state, which holds null or a state.
 ///
 /// # Safety
 /// `place` is null or points to a pointer.
@@ -86,7 +85,7 @@ unsafe fn variable<'a>(place: *mut fmi2FMUstate) -> Result<&'a mut fmi2FMUstate,
     Ok(unsafe { arguments::place(place, "FMUstate")?.assume_init_mut() })
 }
 
-/// Puts a state where an importer keeps it: over the one that it has there, else in new memory.
+/// Stores a state where the importer keeps it: over the state that is there, else in new memory.
 ///
 /// # Safety
 /// As `variable`; `*place` as in `living`.
@@ -119,7 +118,8 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, state: *mut fmi2FMUst
 /// The state may come from another instance of this FMU.
 ///
 /// # Safety
-/// As in the standard: `state` comes from fmi2GetFMUstate or fmi2DeSerializeFMUstate and was not freed.
+/// As in the standard: `state` comes from fmi2GetFMUstate or fmi2DeSerializeFMUstate and was not
+/// freed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, state: fmi2FMUstate) -> fmi2Status {
     let body = |instance: &mut Instance| {
@@ -130,7 +130,7 @@ pub unsafe extern "C" fn fmi2SetFMUstate(c: fmi2Component, state: fmi2FMUstate) 
     unsafe { call(c, Function::fmi2SetFMUstate, body) }
 }
 
-/// Sets `*state` to null, so that freeing it once more does nothing.
+/// Sets `*state` to null, so that freeing it again does nothing.
 ///
 /// # Safety
 /// As in the standard: `state` is null, or `*state` as in fmi2SetFMUstate.
@@ -148,7 +148,7 @@ pub unsafe extern "C" fn fmi2FreeFMUstate(
         if pointer.is_null() {
             return Ok(());
         }
-        // SAFETY: passed on from the caller; `living` refuses what is no state.
+        // SAFETY: passed on from the caller; `living` refuses anything else.
         unsafe {
             living(*pointer)?;
             handle::free::<FmuState>(*pointer);
@@ -192,7 +192,7 @@ pub unsafe extern "C" fn fmi2SerializeFMUstate(
         let bytes = unsafe { living(state)? }.to_bytes()?;
         if size < bytes.len() {
             return refuse(format!(
-                "there is room for {size} bytes, but the state has {}; ask fmi2SerializedFMUstateSize",
+                "serializedState has room for {size} bytes, but the state takes {}; ask fmi2SerializedFMUstateSize",
                 bytes.len()
             ));
         }

@@ -1,4 +1,5 @@
-//! Getting and setting the values of variables: fmi2Functions.h, "Getting and setting variable values".
+//! Getting and setting the values of variables: fmi2Functions.h, "Getting and setting variable
+//! values".
 
 #![allow(non_snake_case)]
 

@@ -1,5 +1,5 @@
-//! From the experiment to the end: fmi2Functions.h, "Enter and exit initialization mode, terminate and
-//! reset".
+//! From the experiment to the end: fmi2Functions.h, "Enter and exit initialization mode, terminate
+//! and reset".
 
 #![allow(non_snake_case)]
 
@@ -31,7 +31,7 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
             && (stop.is_nan() || stop < startTime)
         {
             return refuse(format!(
-                "stopTime = {stop} s lies before startTime = {startTime} s; pass a later one or none"
+                "stopTime = {stop} s is before startTime = {startTime} s; pass a later stopTime or none"
             ));
         }
         instance.experiment = Experiment {

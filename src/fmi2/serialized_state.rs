@@ -24,10 +24,10 @@ const VERSION: u32 = 2;
 const HEAD: usize = MAGIC.len() + 4 + GUID.len() + 8;
 const CHECKSUM: usize = 4;
 
-/// Why bytes are no state of this FMU.
+/// Why bytes are not a state of this FMU.
 #[derive(Debug, Error, PartialEq)]
 pub enum DecodeError {
-    #[error("the bytes are no serialized state of this FMU: they do not begin as one")]
+    #[error("the bytes are not a serialized state of this FMU")]
     Foreign,
     #[error(
         "the state was serialized in format {0}, this FMU reads {VERSION}; use the FMU that wrote it"
@@ -49,7 +49,7 @@ pub enum DecodeError {
     Contradiction(#[from] Contradiction),
     #[error("the state cannot be used: its time is not finite")]
     Time,
-    #[error("the state cannot be used: its state of the call sequence does not fit the rest of it")]
+    #[error("the state cannot be used: its state in the call sequence contradicts the rest")]
     Mode,
     #[error("the state cannot be written: {0}")]
     Unwritable(postcard::Error),
@@ -83,14 +83,14 @@ impl FmuState {
             return Err(DecodeError::Long);
         }
         state.check()?;
-        // postcard reads a number that was written in more bytes than it needs.
+        // postcard also reads integers that take more bytes than they need.
         if state.to_bytes()? != bytes {
             return Err(DecodeError::Written);
         }
         Ok(state)
     }
 
-    /// Refuses what no instance can be in.
+    /// Refuses a state that no instance can be in.
     fn check(&self) -> Result<(), DecodeError> {
         let experiment = &self.experiment;
         if !experiment.time.is_finite() || experiment.stop_time.is_some_and(f64::is_nan) {

@@ -62,7 +62,8 @@ fn co_simulation() -> Vec<f64> {
 /// An explicit Runge-Kutta method.
 struct Method {
     name: &'static str,
-    /// Fractions of the step at which the stages are, each reached by the rates of the stage before.
+    /// Fractions of the step at which the stages are, each reached by the rates of the stage
+    /// before.
     stages: &'static [f64],
     weights: &'static [f64],
     order: f64,

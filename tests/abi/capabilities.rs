@@ -114,7 +114,8 @@ fn the_flags_of_both_interfaces_say_what_the_library_does() {
     }
 }
 
-/// Whether the importer may leave fmi2CompletedIntegratorStep out: not if it ever asks for an event.
+/// Whether the importer may leave fmi2CompletedIntegratorStep out: not if it ever asks for an
+/// event.
 fn completed_step_is_not_needed() -> bool {
     let instance = created(c::MODEL_EXCHANGE);
     instance.begin_integration();

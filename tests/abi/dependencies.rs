@@ -1,5 +1,6 @@
-//! What modelDescription.xml says in ModelStructure on which unknown depends on what, against what happens: an
-//! importer that trusts it would else use old values, or see loops where there are none.
+//! What modelDescription.xml says in ModelStructure on which unknown depends on what, against what
+//! happens: an importer that trusts it would else use old values, or see loops where there are
+//! none.
 
 use crate::support::{
     Fmu, Instance, c,
@@ -153,7 +154,8 @@ fn outputs_and_derivatives_depend_on_what_is_said_and_on_nothing_else() {
             assert!(seen.contains(&pair), "{unknown} does not depend on {known}");
         }
     }
-    // azimuth, rotorSpeed, advanceRatio, tipMach, tipReynolds, airDensity, der(azimuth) and 8 flap angles.
+    // azimuth, rotorSpeed, advanceRatio, tipMach, tipReynolds, airDensity, der(azimuth) and 8 flap
+    // angles.
     assert_eq!(short, 15);
     // What could be a loop through the flow is one for some rotor.
     for (unknown, known) in [

@@ -1,4 +1,5 @@
-//! The complete state of an instance: taken, set, freed, and gone on from as if it had never been left.
+//! The complete state of an instance: taken, set, freed, and gone on from as if it had never been
+//! left.
 
 use crate::support::{
     Creation, Fmu, Instance,
@@ -135,8 +136,8 @@ fn in_flight(rotor: Rotor) -> Instance<'static> {
     instance
 }
 
-/// Asserts that from the state of `leave`, on the same instance after other steps and on another one, what
-/// follows is what follows without leaving.
+/// Asserts that from the state of `leave`, on the same instance after other steps and on another
+/// one, what follows is what follows without leaving.
 fn comes_back(rotor: Rotor, leave: impl Fn(&Instance)) {
     let undisturbed = in_flight(rotor);
     leave(&undisturbed);
@@ -177,7 +178,8 @@ fn inputs_and_their_derivatives_that_wait_for_the_next_step_belong_to_the_state(
     }
 }
 
-/// Model Exchange: what is seen on the way on from the modes in turn, and when events are asked for.
+/// Model Exchange: what is seen on the way on from the modes in turn, and when events are asked
+/// for.
 fn integrate_on(instance: &Instance, is_continuous: bool) -> (Vec<Seen>, Vec<bool>) {
     let (mut all, mut events) = (vec![], vec![]);
     if is_continuous {
@@ -321,7 +323,8 @@ fn the_rotor_follows_the_fixed_parameters_of_the_state_at_once() {
     assert_eq!(fly_on(&other), fly_on(&source));
 }
 
-/// An instance with other resources has no such file: the state is refused, and the instance goes on.
+/// An instance with other resources has no such file: the state is refused, and the instance goes
+/// on.
 #[test]
 fn a_state_with_a_file_that_is_missing_is_refused_and_nothing_changes() {
     let file = crate::support::fmu::scratch().join("fmu-state.polar");
@@ -399,7 +402,7 @@ fn a_state_is_overwritten_where_there_is_one_and_freed_once() {
     let other = other.as_mut_ptr();
     for foreign in [other, other.wrapping_byte_add(1)] {
         let message = instance.refused(set(foreign.cast()));
-        assert!(message.contains("no state of this FMU"), "{message}");
+        assert!(message.contains("not a state of this FMU"), "{message}");
     }
     let message = instance.refused({
         // SAFETY: null is refused.

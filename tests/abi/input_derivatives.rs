@@ -44,8 +44,8 @@ const RAMP: [(&str, f64); 8] = [
 
 const DURATION: f64 = 0.08;
 
-/// States and loads at the end of the ramp, made in `steps` steps, with the derivatives or as a staircase with
-/// the inputs of the middle of each step, which is of second order.
+/// States and loads at the end of the ramp, made in `steps` steps, with the derivatives or as a
+/// staircase with the inputs of the middle of each step, which is of second order.
 fn ramped(instance: &Instance, steps: u32, is_smooth: bool) -> Vec<f64> {
     let size = DURATION / f64::from(steps);
     let starts = RAMP.map(|(name, _)| instance.real(name));
@@ -75,15 +75,17 @@ fn distance(a: &[f64], b: &[f64]) -> f64 {
         .fold(0.0, f64::max)
 }
 
-/// The answer along a ramp is the limit of ever shorter steps with constant inputs, and each halving of the steps
-/// brings it closer by the third order of the method, which only inputs at the method's own moments do.
+/// The answer along a ramp is the limit of ever shorter steps with constant inputs, and each
+/// halving of the steps brings it closer by the third order of the method, which only inputs at the
+/// method's own moments do.
 #[test]
 fn steps_along_a_ramp_converge_with_order_three_to_the_staircase_of_ever_shorter_steps() {
     for (inflow, is_driven) in [("pittPetersDynamic", true), ("uniform", false)] {
         let fly = |steps, smooth| ramped(&running(inflow, true, is_driven), steps, smooth);
         let limit = fly(2048, true);
         let errors = [64, 128, 256].map(|steps| distance(&fly(steps, true), &limit));
-        // The kinks of the airfoil table, which is linear between its points, disturb a single halving.
+        // The kinks of the airfoil table, which is linear between its points, disturb a single
+        // halving.
         let order = (errors[0] / errors[2]).log2() / 2.0;
         let held = distance(&held(&running(inflow, true, is_driven), 256), &limit);
         println!("{inflow}: {errors:?}, order {order}, held {held}");
@@ -96,7 +98,8 @@ fn steps_along_a_ramp_converge_with_order_three_to_the_staircase_of_ever_shorter
     }
 }
 
-/// The fast states of Peters & He shorten the internal steps, so that one long step is close already.
+/// The fast states of Peters & He shorten the internal steps, so that one long step is close
+/// already.
 #[test]
 fn one_step_along_a_ramp_is_close_to_the_staircase_of_short_steps_in_the_dynamic_wake() {
     for (flapping, is_driven) in [(true, false), (false, true)] {
@@ -257,7 +260,7 @@ fn only_finite_first_derivatives_of_inputs_are_taken() {
         i.set_input_derivatives(&[collective, 1], &[1, 2], &[0.1, 0.1])
     });
     for v in REALS.iter().filter(|v| v.causality != Causality::Input) {
-        refused(&[v.name, "no input"], |i| i.set_slope(v.name, 0.1));
+        refused(&[v.name, "not an input"], |i| i.set_slope(v.name, 0.1));
     }
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         refused(&["rpm", "finite"], |i| {

@@ -1,5 +1,5 @@
-//! Which function may be called in which state: every function in every state that this FMU
-//! enters, against the tables of the standard (FMI 2.0.5, sections 4.2.4, Co-Simulation, and 3.2.3, Model
+//! Which function may be called in which state: every function in every state that this FMU enters,
+//! against the tables of the standard (FMI 2.0.5, sections 4.2.4, Co-Simulation, and 3.2.3, Model
 //! Exchange).
 
 use crate::support::{
@@ -30,8 +30,9 @@ const MODEL_EXCHANGE: usize = 4;
 /// `x` legal; `-` illegal; `o` legal, but an option that this FMU does not offer; `M` a function
 /// of Model Exchange, `C` one of Co-Simulation.
 ///
-/// fmi2Instantiate makes another instance, which does not depend on the state of this one. fmi2SetTime in
-/// Event Mode is for a "Pure Discrete-Time FMU" only (condition 8 of the table), which this one is not.
+/// fmi2Instantiate makes another instance, which does not depend on the state of this one.
+/// fmi2SetTime in Event Mode is for a "Pure Discrete-Time FMU" only (condition 8 of the table),
+/// which this one is not.
 const TABLE: &str = "
     fmi2GetTypesPlatform              xxxx xxxxx
     fmi2GetVersion                    xxxx xxxxx

@@ -16,8 +16,8 @@ const WARM_UP: usize = 50;
 const EACH: usize = 500;
 
 /// Resident memory may grow by this, in kB, over the 900 instances after the warm-up: 1.1 kB each.
-/// An instance holds 10 kB, mostly its airfoil's table, so that a leak of a ninth of it is seen. The
-/// C library's allocator itself keeps some 50 kB in the arenas of two threads.
+/// An instance holds 10 kB, mostly its airfoil's table, so that a leak of a ninth of it is seen.
+/// The C library's allocator itself keeps some 50 kB in the arenas of two threads.
 const ALLOWED_GROWTH: u64 = 1024;
 
 #[test]

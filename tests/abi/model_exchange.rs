@@ -8,7 +8,8 @@ use crate::support::{
 use helicopter_rotor::block::variables::{INTEGERS, REALS, STATES};
 use std::ptr;
 
-/// Forward flight with flapping blades in dynamic inflow, turned by a torque: every kind of state is in use.
+/// Forward flight with flapping blades in dynamic inflow, turned by a torque: every kind of state
+/// is in use.
 fn forward_flight(instance: &Instance) {
     for (name, choice) in [
         ("models.inflow", "pittPetersDynamic"),
@@ -273,7 +274,8 @@ fn wrong_states_are_refused_and_leave_the_old_ones() {
         );
     }
     assert_eq!(values(&instance), before);
-    // States that no rotor has: refused when something is asked for, and forgotten with better ones.
+    // States that no rotor has: refused when something is asked for, and forgotten with better
+    // ones.
     let mut wild = x.clone();
     wild.iter_mut().for_each(|v| *v = 1e300);
     assert_eq!(instance.set_states(&wild), c::OK);

@@ -1,6 +1,6 @@
-//! Pointers that cannot be right: misaligned, of more elements than memory can have, or to something
-//! else than an instance. The tests run with debug assertions, which end the process where a reference
-//! is made of such a pointer.
+//! Pointers that cannot be right: misaligned, of more elements than memory can have, or to
+//! something else than an instance. The tests run with debug assertions, which end the process
+//! where a reference is made of such a pointer.
 
 use crate::support::{
     Instance,
@@ -90,7 +90,8 @@ fn counts_that_no_memory_has_are_refused() {
     let (f, component) = (instance.functions, instance.component);
     let mut memory = Memory::new();
     let most = isize::MAX as usize;
-    // The smallest elements, value references, have 4 bytes; the size of the last one wraps around to 4.
+    // The smallest elements, value references, have 4 bytes; the size of the last one wraps around
+    // to 4.
     for count in [
         usize::MAX,
         usize::MAX / 2 + 1,
@@ -257,7 +258,8 @@ fn what_is_no_instance_is_recognised() {
         instance.component.wrapping_byte_add(8),
     ] {
         let mut value = 9.0;
-        // SAFETY: 8 bytes may be read where the pointer is aligned; the functions must not touch more.
+        // SAFETY: 8 bytes may be read where the pointer is aligned; the functions must not touch
+        // more.
         unsafe {
             assert_eq!((f.fmi2DoStep)(wrong, 0.0, 0.1, 1), c::ERROR);
             assert_eq!((f.fmi2GetReal)(wrong, &0, 1, &mut value), c::ERROR);
@@ -265,11 +267,11 @@ fn what_is_no_instance_is_recognised() {
         }
         assert_eq!(value, 9.0);
     }
-    // An instance is no state, either.
+    // An instance is not a state, either.
     // SAFETY: the instance lives.
     let status = unsafe { (f.fmi2SetFMUstate)(instance.component, instance.component) };
     let message = instance.refused(status);
-    assert!(message.contains("no state of this FMU"), "{message}");
+    assert!(message.contains("not a state of this FMU"), "{message}");
     memory.is_untouched();
     assert_eq!(instance.set_state(&state), c::OK);
     assert_eq!(instance.step(0.0, 0.1), c::OK);

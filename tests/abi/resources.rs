@@ -88,8 +88,8 @@ fn without_a_usable_location_the_resources_beside_the_library_are_found() {
     }
 }
 
-/// A folder that exists but holds no resources, as importers that pass the unpacked FMU's own folder
-/// or a temporary one do.
+/// A folder that exists but holds no resources, as importers that pass the unpacked FMU's own
+/// folder or a temporary one do.
 #[test]
 fn a_location_without_our_files_in_it_is_not_used() {
     let fmu = Fmu::shared();

@@ -182,7 +182,7 @@ fn bytes_that_are_no_state_of_this_fmu_are_refused_with_the_reason() {
         b"another format altogether",
         &[0; 4000],
     ] {
-        refused(foreign, &["no serialized state of this FMU"]);
+        refused(foreign, &["not a serialized state of this FMU"]);
     }
     refused(&changed(8, |b| b + 1), &["format 3", "reads 2"]);
     refused(&changed(GUID_AT + 5, |b| b ^ 1), &["GUID", GUID]);
@@ -283,8 +283,8 @@ fn null_pointers_and_short_room_are_refused() {
     assert_eq!(room[count..], [0x55; 8]);
 }
 
-/// What becomes of an instance that is given bytes: they are refused with one sentence, or it goes on, or refuses
-/// to, in its own words; a reset makes it as new.
+/// What becomes of an instance that is given bytes: they are refused with one sentence, or it goes
+/// on, or refuses to, in its own words; a reset makes it as new.
 fn survives(bytes: &[u8]) -> Result<(), TestCaseError> {
     let instance = Instance::new();
     let Ok(state) = instance.deserialize(bytes) else {

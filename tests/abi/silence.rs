@@ -14,7 +14,8 @@ fn nothing_is_printed_also_when_errors_find_no_logger() {
     let f = &Fmu::shared().functions;
     let guid = CString::new(GUID).unwrap();
     let (here, nowhere) = (c"rotor".as_ptr(), ptr::null());
-    // SAFETY: the pointers are null or valid during the calls; the component lives until it is freed.
+    // SAFETY: the pointers are null or valid during the calls; the component lives until it is
+    // freed.
     child::watched(|| unsafe {
         let instantiate =
             |guid| (f.fmi2Instantiate)(here, c::CO_SIMULATION, guid, nowhere, ptr::null(), 1, 1);

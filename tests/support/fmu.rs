@@ -66,7 +66,8 @@ fn copy_folder(from: &Path, to: &Path) {
     }
 }
 
-/// The `file:` URI of a path, with everything percent-encoded but letters, digits, `/`, `-` and `.`.
+/// The `file:` URI of a path, with everything percent-encoded but letters, digits, `/`, `-` and
+/// `.`.
 pub fn uri(path: &Path) -> String {
     let mut uri = "file://".to_owned();
     for byte in path.to_str().unwrap().bytes() {

@@ -1,5 +1,5 @@
-//! Directional derivatives and the derivatives of outputs in time, through the C interface. That they are exact in
-//! all models is held by tests/derivatives.rs.
+//! Directional derivatives and the derivatives of outputs in time, through the C interface. That
+//! they are exact in all models is held by tests/derivatives.rs.
 
 use crate::support::{
     Creation, Fmu, Instance,
@@ -9,7 +9,8 @@ use crate::support::{
 use helicopter_rotor::block::variables::{INTEGERS, REALS};
 use std::ptr;
 
-/// An instance with dynamic inflow, 10 ms after its start; in Continuous-Time Mode for Model Exchange.
+/// An instance with dynamic inflow, 10 ms after its start; in Continuous-Time Mode for Model
+/// Exchange.
 fn under_way(kind: i32) -> Instance<'static> {
     let creation = Creation {
         kind,
