@@ -80,10 +80,11 @@ pub struct Variable {
     pub rate_depends_on: Option<Vec<String>>,
     pub count: Option<usize>,
     pub description: String,
-    /// Name of the state whose derivative this is; such variables are not written but made.
+    /// Name of the state whose derivative this is. Such variables are not in the file but added
+    /// here.
     #[serde(skip)]
     pub derivative_of: Option<String>,
-    /// Name of the row, with its `#`, of which this is one element.
+    /// Name of its row, with `#`, if that is an array.
     #[serde(skip)]
     pub element_of: Option<String>,
 }
@@ -197,7 +198,7 @@ impl Table {
             unit: Some(unit),
             display_unit: None,
             depends_on: state.rate_depends_on.clone(),
-            // What it does not have by way of its states, it has from all parameters or from none.
+            // Beyond its states, a rate depends on all parameters or on none.
             parameter_groups: state.rate_depends_on.as_ref().map(|_| Vec::new()),
             nominal: None,
             starts_from: None,
@@ -266,7 +267,7 @@ impl Table {
             _ => self.enumeration_start(v).is_some(),
         };
         if !start_fits {
-            return Err(format!("start {:?} is no {}", v.start, v.kind));
+            return Err(format!("start {:?} is not of the type {}", v.start, v.kind));
         }
         if v.kind == "Real" {
             let unit = v.unit.as_ref().ok_or("has no unit")?;
@@ -283,11 +284,13 @@ impl Table {
         let mut named = v.depends_on.iter().chain(&v.rate_depends_on).flatten();
         let is_known = |name: &String| self.inputs().chain(self.states()).any(|k| &k.name == name);
         if let Some(name) = named.find(|name| !is_known(name)) {
-            return Err(format!("depends on {name}, which is no input and no state"));
+            return Err(format!(
+                "depends on {name}, which is neither an input nor a state"
+            ));
         }
         let mut named = v.starts_from.iter().flatten();
         if let Some(name) = named.find(|name| !self.inputs().any(|i| &i.name == *name)) {
-            return Err(format!("starts from {name}, which is no input"));
+            return Err(format!("starts from {name}, which is not an input"));
         }
         if !is_unknown && (v.depends_on.is_some() || v.parameter_groups.is_some()) {
             return Err("only outputs and states depend on anything".into());

@@ -6,15 +6,16 @@ mod abi {
     mod arguments;
     mod both_interfaces;
     mod capabilities;
-    mod course;
     mod dependencies;
-    mod derivatives;
+    mod directional;
     mod exports;
     mod extremes;
     mod files;
     mod fmu_state;
+    mod get_set;
     mod input_derivatives;
     mod legality;
+    mod life_cycle;
     mod logging;
     mod many;
     mod model_exchange;
@@ -24,5 +25,4 @@ mod abi {
     mod resources;
     mod serialized;
     mod silence;
-    mod values;
 }

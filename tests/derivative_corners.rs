@@ -3,7 +3,7 @@
 
 mod support {
     pub mod block;
-    pub mod derivative;
+    pub mod exact;
 }
 
 use helicopter_rotor::block::{
@@ -12,7 +12,7 @@ use helicopter_rotor::block::{
 };
 use support::{
     block::{choose, default_block, get, project, set},
-    derivative::{exact_along, inputs_and_states, known_scale, outputs_and_rates, unknown_scale},
+    exact::{exact_along, inputs_and_states, known_scale, outputs_and_rates, unknown_scale},
 };
 
 /// Marsaglia 2003, "Xorshift RNGs": the same flights at each run.

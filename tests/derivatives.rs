@@ -2,7 +2,7 @@
 
 mod support {
     pub mod block;
-    pub mod derivative;
+    pub mod exact;
 }
 
 use helicopter_rotor::block::{
@@ -11,7 +11,7 @@ use helicopter_rotor::block::{
 };
 use support::{
     block::{choose, default_block, project, set},
-    derivative::{exact, inputs_and_states, known_scale, outputs_and_rates, unknown_scale},
+    exact::{exact, inputs_and_states, known_scale, outputs_and_rates, unknown_scale},
 };
 
 /// Ways to hold the blades.

@@ -1,8 +1,8 @@
-//! Every combination of the models, flown: each flight is finite or ends in one clear error, and the
-//! same flight gives the same bits again.
+//! Every combination of the models, flown: each flight is finite or ends in one clear error, and
+//! the same flight gives the same bits again.
 //!
-//! The enumerations, their values and the switches are read from the table of variables, so that new
-//! models are flown as well. Two sets of flights:
+//! The enumerations, their values and the switches are read from the table of variables, so that
+//! new models are flown as well. Two sets of flights:
 //!
 //! * Each combination of the choices that shape the solution flies once. A sequence that spreads
 //!   evenly picks the flight and the other choices, so that each pair of values meets hundreds of
@@ -305,8 +305,8 @@ impl Sweep {
         texts.join(", ")
     }
 
-    /// Whether the documentation says that the parameters are refused: blades that flap in the disc or
-    /// in the closed form, and the closed form near the ground.
+    /// Whether the documentation says that the parameters are refused: blades that flap in the disc
+    /// or in the closed form, and the closed form near the ground.
     fn expected_refusal(&self, run: &Run) -> bool {
         let has = |name: &str, value: &str| self.has(run, name, value);
         let flaps = has(boolean::FLAPPING__ENABLED.variable().name, "true");

@@ -1,9 +1,9 @@
-//! Where files lie: `file:` URIs, and names relative to the FMU's resources.
+//! Where files are: `file:` URIs, and names relative to the FMU's resources.
 
 use std::path::{Path, PathBuf};
 
 /// The path in a `file:` URI (`file:/x`, `file:///x`, `file://localhost/x`, percent-encoded
-/// UTF-8, `file:///C:/x`); none if it is no such URI or has no absolute path.
+/// UTF-8, `file:///C:/x`). `None` for any other URI and for one without an absolute path.
 pub fn path_from_uri(uri: &str) -> Option<PathBuf> {
     let scheme = uri.get(..5)?;
     if !scheme.eq_ignore_ascii_case("file:") {
@@ -11,7 +11,7 @@ pub fn path_from_uri(uri: &str) -> Option<PathBuf> {
     }
     let rest = &uri[5..];
     let path = match rest.strip_prefix("//") {
-        // Behind two slashes comes the host, up to the path's own slash.
+        // Two slashes are followed by the host, and that by the path's own slash.
         Some(authority) => &authority[authority.find('/')?..],
         None if rest.starts_with('/') => rest,
         None => return None,
@@ -22,7 +22,7 @@ pub fn path_from_uri(uri: &str) -> Option<PathBuf> {
     Some(PathBuf::from(if has_drive { &path[1..] } else { &path }))
 }
 
-/// The text with every %XX replaced by its byte; none if that is no UTF-8.
+/// The text with every %XX replaced by its byte. `None` if the result is not UTF-8.
 fn percent_decoded(text: &str) -> Option<String> {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
@@ -42,8 +42,8 @@ fn percent_decoded(text: &str) -> Option<String> {
     String::from_utf8(bytes).ok()
 }
 
-/// The file behind a parameter: a `file:` URI or an absolute path as it is; else a name in
-/// `folder` of the resources if it is there, else one relative to the resources.
+/// The file that a parameter names. A `file:` URI or an absolute path is taken as it is. Any other
+/// name is looked for in `folder` of the resources first, then relative to the resources.
 pub fn resolve(resources: &Path, folder: &str, name: &str) -> PathBuf {
     if let Some(path) = path_from_uri(name) {
         return path;
@@ -52,7 +52,7 @@ pub fn resolve(resources: &Path, folder: &str, name: &str) -> PathBuf {
     if in_folder.is_file() {
         return in_folder;
     }
-    resources.join(name) // `join` keeps an absolute name as it is
+    resources.join(name) // `join` keeps an absolute path as it is
 }
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! The rotor as a block of named variables: which variable feeds which quantity of the physics.
 //! Neutral of the FMI version.
 
-mod bytes;
 mod derivative;
 mod flight_condition;
 mod integrate;
@@ -17,12 +16,11 @@ mod state_vector;
 mod values;
 pub mod variables;
 
-pub use bytes::{DecodeError, Reader};
 pub use derivative::DerivativeError;
 pub use location::path_from_uri;
 pub use references::{Booleans, Integers, Names, PerVariable, Reals, Reference, Strings};
 pub use setup::SetupError;
-pub use snapshot::Snapshot;
+pub use snapshot::{Contradiction, Snapshot};
 pub use values::{Stage, ValueError, Values};
 
 use flight_condition::FlightCondition;
@@ -32,6 +30,7 @@ use outputs::{write_outputs, write_stations};
 use outside_data::OutsideDataNotice;
 use ramp::Ramp;
 use rotor::{OperatingPoint, Response, Rotor, SolveError, Workspace};
+use serde::{Deserialize, Serialize};
 use state_vector::{StateVector, read_states, write_derivatives, write_states};
 use std::{path::PathBuf, sync::Arc};
 use thiserror::Error;
@@ -65,7 +64,7 @@ pub enum BlockError {
 }
 
 /// How much of what is computed belongs to the present inputs, parameters and states.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 enum Fresh {
     Nothing,
     Derivatives,

@@ -1,4 +1,4 @@
-//! The ramp of the inputs within a step: linear, where their derivatives were set.
+//! Inputs that move linearly within a step, where the importer has set their derivatives.
 
 use super::{
     BlockError, Values,
@@ -6,20 +6,20 @@ use super::{
     variables::{INPUTS, REALS},
 };
 
-/// By how much of its change an input may miss its limit at the end of a step, by rounding.
+/// Part of its change by which an input may exceed its limit at the end of a step: rounding.
 const ROUNDING: f64 = 1e-9;
 
 /// Derivatives of the inputs in time, per second, by value reference.
 pub type Slopes = [f64; INPUTS];
 
-/// The inputs' derivatives in time, and a place for their values within a step.
+/// The derivatives of the inputs in time, and their values within a step.
 #[derive(Debug)]
 pub struct Ramp {
     /// For the next step.
     pub slopes: Slopes,
     /// Those of the last step.
     pub past: Slopes,
-    /// All values at some moment of the step; its strings are not used.
+    /// All values at a moment of the step. The strings are not used.
     moment: Values,
 }
 
@@ -44,7 +44,8 @@ impl Ramp {
         self.slopes = [0.0; INPUTS];
     }
 
-    /// Prepares a step of `duration` s from `start`; an error if an input would leave its range.
+    /// Begins a step of `duration` s at the values `start`. An error if an input would leave its
+    /// range.
     pub fn begin(&mut self, start: &Values, duration: f64) -> Result<(), BlockError> {
         self.moment.reals = start.reals;
         self.moment.integers = start.integers;

@@ -34,6 +34,7 @@ use core::{
     marker::PhantomData,
     ops::{Deref, DerefMut, Index, IndexMut},
 };
+use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
 /// A value reference of a variable that exists. It is the variable's place in the table of its
 /// base type and in the arrays of values.
@@ -206,5 +207,19 @@ impl<'a, R, T, const N: usize> IntoIterator for &'a PerVariable<R, T, N> {
 
     fn into_iter(self) -> Self::IntoIter {
         self.values.iter()
+    }
+}
+
+impl<R, T: Serialize, const N: usize> Serialize for PerVariable<R, T, N> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_seq(&self.values)
+    }
+}
+
+impl<'de, R, T: Deserialize<'de>, const N: usize> Deserialize<'de> for PerVariable<R, T, N> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let values = Vec::<T>::deserialize(deserializer)?.try_into();
+        let values = values.map_err(|_| D::Error::custom("another number of variables"))?;
+        Ok(Self::new(values))
     }
 }

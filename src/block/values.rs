@@ -9,13 +9,14 @@ use super::{
     shown::shown,
     variables::{BOOLEANS, Causality, INTEGERS, REALS, STATES, STRINGS, Variable},
 };
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Why a value was not read or set; nothing has changed then.
+/// Why a value was not read or set. Nothing has changed.
 #[derive(Debug, Error, Clone, PartialEq)]
 pub enum ValueError {
     #[error(
-        "value reference {reference} is no {base_type} variable of this FMU (they go from 0 to {last}); take it from modelDescription.xml"
+        "this FMU has no {base_type} variable with the value reference {reference} (they go from 0 to {last}); see modelDescription.xml"
     )]
     Unknown {
         reference: u32,
@@ -36,8 +37,8 @@ pub enum ValueError {
         max: String,
         kept: String,
     },
-    #[error("{name} = {value} is no choice; set one of {choices} (it keeps {kept})")]
-    NoChoice {
+    #[error("{name} = {value} is not allowed; set one of {choices} (it keeps {kept})")]
+    NotAllowed {
         name: &'static str,
         value: i32,
         choices: String,
@@ -55,27 +56,28 @@ pub enum ValueError {
         "{name} is computed by the rotor; as a continuous state it can be set in Continuous-Time Mode only"
     )]
     State { name: &'static str },
-    #[error("{name} is no input; only inputs have a derivative that can be set")]
-    NoInput { name: &'static str },
+    #[error("{name} is not an input; only the derivatives of inputs can be set")]
+    NotInput { name: &'static str },
     #[error("the derivative {value} of {name} is not a finite number; set a finite one")]
     SlopeNotFinite { name: &'static str, value: f64 },
     #[error("{given} continuous states were passed, but this FMU has {}", STATES.len())]
     StateCount { given: usize },
 }
 
-/// What may change.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+/// Which variables may change.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Stage {
     /// Inputs and all parameters.
     Configuring,
     /// Inputs and tunable parameters.
     Running,
-    /// Inputs and continuous states: the importer integrates. What is discrete keeps its values.
+    /// Inputs and continuous states, while the importer integrates. Discrete variables keep their
+    /// values.
     Integrating,
 }
 
 /// The values by value reference.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Values {
     pub reals: Reals,
     pub integers: Integers,
@@ -94,8 +96,8 @@ impl Default for Values {
     }
 }
 
-/// What the causality and the stage say about setting a variable to a value that differs, or not,
-/// from the one it has.
+/// Whether causality and stage allow a variable to be set, to a value that differs from its present
+/// one or not. `kept` is the present value for the error.
 fn may_set<T>(
     variable: &Variable<T>,
     stage: Stage,
@@ -176,8 +178,8 @@ impl Values {
         Ok(())
     }
 
-    /// Takes the derivatives in time of inputs, or none if one is refused, into `slopes`, by value
-    /// reference.
+    /// Puts the derivatives in time of inputs into `slopes`: all of them or, if one is refused,
+    /// none.
     pub fn set_slopes(
         names: &[impl Names<RealRef>],
         values: &[f64],
@@ -188,7 +190,7 @@ impl Values {
             let variable = reference.variable();
             let name = variable.name;
             if variable.causality != Causality::Input {
-                return Err(ValueError::NoInput { name });
+                return Err(ValueError::NotInput { name });
             }
             if !value.is_finite() {
                 let value = *value;
@@ -228,7 +230,7 @@ impl Values {
             }
             let choices = variable.choices.iter().enumerate();
             let choices: Vec<String> = choices.map(|(i, c)| format!("{} ({c})", i + 1)).collect();
-            return Err(ValueError::NoChoice {
+            return Err(ValueError::NotAllowed {
                 name,
                 value: *value,
                 choices: choices.join(", "),
@@ -254,7 +256,7 @@ impl Values {
             let kept = i32::from(self.booleans[reference]);
             may_set(variable, stage, *value != kept, || kept.to_string())?;
             if ![0, 1].contains(value) {
-                return Err(ValueError::NoChoice {
+                return Err(ValueError::NotAllowed {
                     name: variable.name,
                     value: *value,
                     choices: "0 (false), 1 (true)".to_owned(),
@@ -334,7 +336,7 @@ mod tests {
         let error = error.unwrap_err().to_string();
         assert!(
             error.contains(
-                "models.inflow = 99 is no choice; set one of 1 (annulusClosedForm), 2 (annulus), 3"
+                "models.inflow = 99 is not allowed; set one of 1 (annulusClosedForm), 2 (annulus), 3"
             ),
             "{error}"
         );
@@ -342,7 +344,7 @@ mod tests {
         let error = values.set_booleans(Stage::Configuring, &refs, &[1, 2]);
         assert_eq!(
             error.unwrap_err().to_string(),
-            "flapping.enabled = 2 is no choice; set one of 0 (false), 1 (true) (it keeps 0)"
+            "flapping.enabled = 2 is not allowed; set one of 0 (false), 1 (true) (it keeps 0)"
         );
         assert_eq!(values, before);
         let error = values
@@ -351,7 +353,7 @@ mod tests {
         assert!(
             error
                 .to_string()
-                .contains("value reference 9999 is no Real variable"),
+                .contains("no Real variable with the value reference 9999"),
             "{error}"
         );
     }

@@ -1,7 +1,7 @@
-//! The table of variables as the build made it from modelDescription/variables.toml: names,
-//! defaults, ranges and value references. Neutral of the FMI version.
+//! The table of variables that the build makes from modelDescription/variables.toml: names,
+//! defaults, ranges and value references. Independent of the FMI version.
 
-// Defaults and limits stand as numbers in the table, also where they are pi.
+// The table writes defaults and limits as numbers, pi included.
 #![allow(clippy::approx_constant)]
 
 pub use super::references::{BooleanRef, IntegerRef, RealRef, StringRef};
@@ -11,7 +11,7 @@ pub use super::references::{BooleanRef, IntegerRef, RealRef, StringRef};
 pub enum Causality {
     Input,
     Output,
-    /// Computed like an output, but not connected to others.
+    /// Computed as an output is, but not meant to be connected.
     Local,
     Parameter,
 }
@@ -25,14 +25,14 @@ pub struct Variable<T: 'static> {
     pub tunable: bool,
     /// Whether it is a continuous state.
     pub is_state: bool,
-    /// Empty for what is not a Real.
+    /// Empty unless the variable is a Real.
     pub unit: &'static str,
     /// Value before anything is set.
     pub start: T,
-    /// Smallest and largest value that is accepted (not used for Booleans and strings).
+    /// Smallest and largest accepted value; Booleans and strings do not use them.
     pub min: T,
     pub max: T,
-    /// Names of an enumeration's values, which count from 1.
+    /// Names of an enumeration's items, numbered from 1. Empty for other types.
     pub choices: &'static [&'static str],
 }
 

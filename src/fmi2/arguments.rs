@@ -1,8 +1,7 @@
 //! What an importer passes behind pointers: arrays, places for answers, and strings.
 //!
-//! Pointers are checked as far as that can be done before a reference is made: for null, for
-//! alignment, and for a size that memory can have. Whether the memory is there, only the importer
-//! knows.
+//! Before a reference is made, a pointer is checked for null, for alignment and for a size that
+//! memory can have. Only the importer knows whether the memory is there.
 
 use super::{
     instance::{Message, Outcome, refuse},
@@ -36,7 +35,7 @@ fn check_alignment<T>(pointer: *const T, what: &str) -> Outcome {
     ))
 }
 
-/// The elements behind a pointer; none if `count` is 0, whatever the pointer is.
+/// The elements behind a pointer. If `count` is 0, the pointer does not matter.
 ///
 /// # Safety
 /// If `pointer` passes `check`, it points to `count` initialised elements that live as long as the

@@ -9,8 +9,8 @@ use super::{
     types::*,
 };
 
-/// How far, in s, the importer's time may drift from ours: a thousandth of the step, and the
-/// rounding of times that are added up.
+/// How far the importer's time may be from ours, s: a thousandth of the step, plus the rounding of
+/// times that are added up.
 fn tolerance(time: f64, step: f64) -> f64 {
     1e-3 * step + 1e-9 * time.abs().max(1.0)
 }
@@ -59,7 +59,7 @@ pub unsafe extern "C" fn fmi2DoStep(
 /// As in the standard: `c` from fmi2Instantiate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CancelStep(c: fmi2Component) -> fmi2Status {
-    // Legal only while a step runs on, which no step of this FMU does.
+    // Legal only while a step runs asynchronously, and no step of this FMU does.
     // SAFETY: passed on from the caller.
     unsafe {
         call(c, Function::fmi2CancelStep, |_| {
@@ -68,8 +68,8 @@ pub unsafe extern "C" fn fmi2CancelStep(c: fmi2Component) -> fmi2Status {
     }
 }
 
-/// The derivatives hold for the next step: the standard says that inputs and their derivatives are
-/// set with respect to the beginning of a step. They are kept while steps are refused.
+/// The derivatives apply to the next step: by the standard, inputs and their derivatives are those
+/// at the beginning of a step. A refused step does not use them up.
 ///
 /// # Safety
 /// As in the standard: `vr`, `order` and `value` have `nvr` elements.
@@ -92,7 +92,7 @@ pub unsafe extern "C" fn fmi2SetRealInputDerivatives(
         };
         if let Some(other) = order.iter().find(|order| **order != 1) {
             return refuse(format!(
-                "order = {other}; the inputs of this FMU move linearly, pass first derivatives (1)"
+                "order = {other}, but the inputs of this FMU move linearly within a step; pass first derivatives (order 1)"
             ));
         }
         Ok(instance.block.set_input_slopes(vr, value)?)
@@ -122,7 +122,7 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
         };
         if let Some(other) = order.iter().find(|order| **order != 1) {
             return refuse(format!(
-                "order = {other}; this FMU has first derivatives of its outputs, pass 1"
+                "order = {other}, but this FMU has only first derivatives of its outputs; pass 1"
             ));
         }
         fill(value, instance.block.output_rates(vr)?);
@@ -134,8 +134,8 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
 
 // ------------------------------------------------------------------ status
 
-/// Answers a status of a kind that the function has, and refuses others. Steps end within
-/// fmi2DoStep, so that nothing is ever pending.
+/// Answers one kind of status and refuses the others. Steps end within fmi2DoStep, so nothing is
+/// ever pending.
 ///
 /// # Safety
 /// As `call`; `value` is null or may be written.
@@ -147,7 +147,9 @@ unsafe fn status<T>(
 ) -> fmi2Status {
     let body = |instance: &mut Instance| -> Outcome {
         let answer = answer(instance).ok_or_else(|| {
-            Message::Error("there is no such status of this type; see fmi2StatusKind".into())
+            Message::Error(
+                "this function does not answer that kind of status; see fmi2StatusKind".into(),
+            )
         })?;
         // SAFETY: passed on from the caller.
         unsafe { place(value, "value")? }.write(answer);
@@ -203,7 +205,7 @@ pub unsafe extern "C" fn fmi2GetBooleanStatus(
     s: fmi2Enumeration,
     value: *mut fmi2Boolean,
 ) -> fmi2Status {
-    // This FMU never asks to end the simulation.
+    // This FMU never asks the importer to end the simulation.
     let answer = |_: &Instance| (s == FMI2_TERMINATED).then_some(FMI2_FALSE);
     // SAFETY: passed on from the caller.
     unsafe { status(c, Function::fmi2GetBooleanStatus, value, answer) }

@@ -1,4 +1,4 @@
-//! Instances come and go: fmi2Functions.h, "Creation and destruction of FMU instances".
+//! Making and freeing instances: fmi2Functions.h, "Creation and destruction of FMU instances".
 
 #![allow(non_snake_case)]
 
@@ -72,18 +72,18 @@ pub unsafe extern "C" fn fmi2Instantiate(
     catch_unwind(AssertUnwindSafe(body)).unwrap_or(ptr::null_mut())
 }
 
-/// The interface that is asked of this FMU and no other.
+/// The interface that the importer asks for; an error if it asks another FMU.
 fn identity(kind: fmi2Enumeration, guid: Result<&str, Message>) -> Result<Interface, String> {
     let guid = guid.map_err(|message| match message {
         Message::Error(text) | Message::Warning(text) => text,
     })?;
     if guid.trim() != GUID {
         return Err(format!(
-            "the GUID {guid:?} is not that of this binary, {GUID}; modelDescription.xml and binary must come from the same .fmu"
+            "the GUID {guid:?} is not the binary's, {GUID}; modelDescription.xml and binary must come from the same .fmu"
         ));
     }
     Interface::from_type(kind).ok_or_else(|| {
-        format!("fmuType = {kind} is none; pass fmi2ModelExchange (0) or fmi2CoSimulation (1)")
+        format!("fmuType = {kind} is unknown; pass fmi2ModelExchange (0) or fmi2CoSimulation (1)")
     })
 }
 
@@ -91,15 +91,16 @@ fn identity(kind: fmi2Enumeration, guid: Result<&str, Message>) -> Result<Interf
 /// As in the standard: `c` is null or comes from fmi2Instantiate and is not used afterwards.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
-    // Freeing is legal in every state that this FMU enters. Nobody is left to be told of a panic.
+    // Freeing is legal in every state that this FMU enters. A panic cannot be reported: the logger
+    // belongs to the instance.
     let _ = catch_unwind(|| {
         // SAFETY: passed on from the caller.
         unsafe { handle::free::<Instance>(c) };
     });
 }
 
-/// Rust's standard panic hook prints; this library prints nothing and logs panics instead. The
-/// hook is this shared library's own: the importer's is another one.
+/// Rust's standard panic hook prints. This library logs panics instead and prints nothing. The hook
+/// belongs to this shared library; an importer written in Rust keeps its own.
 fn keep_panics_silent() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| std::panic::set_hook(Box::new(|_| {})));

@@ -1,13 +1,13 @@
-//! What an importer holds of instances and states: pointers that it cannot look behind.
+//! The opaque pointers that an importer holds: to instances and to states.
 //!
-//! A mark before the value tells pointers of ours from foreign ones, and from those of values that
-//! were freed, as long as nobody else has their memory. It is read before a reference is made.
+//! A mark in front of the value tells our pointers from foreign ones, and from those of freed
+//! values until the memory is used again. The mark is read before a reference is made.
 
 use core::{ffi::c_void, ptr::NonNull};
 
 /// What a handle can hold.
 pub trait Marked {
-    /// A number that foreign memory hardly begins with.
+    /// A number that other memory is unlikely to begin with.
     const MARK: u64;
 }
 
@@ -17,13 +17,13 @@ struct Handle<T> {
     value: T,
 }
 
-/// Moves a value to where a pointer can be handed out to it.
+/// Puts a value behind a pointer for the importer.
 pub fn create<T: Marked>(value: T) -> *mut c_void {
     let mark = T::MARK;
     Box::into_raw(Box::new(Handle { mark, value })).cast()
 }
 
-/// The handle behind a pointer; none if it is null, misaligned or does not bear the mark.
+/// The handle behind a pointer. `None` if it is null, misaligned or without the mark.
 ///
 /// # Safety
 /// As `living`.
@@ -37,7 +37,7 @@ unsafe fn recognise<T: Marked>(pointer: *mut c_void) -> Option<NonNull<Handle<T>
     (mark == T::MARK).then_some(handle)
 }
 
-/// The value behind a pointer; none if it is null, misaligned or does not bear the mark.
+/// The value behind a pointer. `None` if it is null, misaligned or without the mark.
 ///
 /// # Safety
 /// `pointer` is null, or 8 bytes may be read there.
@@ -48,7 +48,7 @@ pub unsafe fn living<T: Marked>(pointer: *mut c_void) -> Option<NonNull<T>> {
     NonNull::new(unsafe { &raw mut (*handle.as_ptr()).value })
 }
 
-/// Frees the value behind a pointer, unless `living` has none.
+/// Frees the value behind a pointer that `living` recognises; does nothing for any other.
 ///
 /// # Safety
 /// As `living`, and nothing refers to the value.

@@ -10,6 +10,7 @@ use crate::block::{
     BlockError, PerVariable, RotorBlock,
     variables::{STRINGS, StringRef},
 };
+use serde::{Deserialize, Serialize};
 use std::{
     any::Any,
     ffi::CString,
@@ -21,7 +22,7 @@ pub struct Instance {
     pub state: States,
     pub block: RotorBlock,
     pub logger: Logger,
-    /// What fmi2GetString handed out: valid until the next call, by value reference.
+    /// What fmi2GetString answered; valid until the next call.
     pub strings: PerVariable<StringRef, CString, { STRINGS.len() }>,
     pub experiment: Experiment,
 }
@@ -31,13 +32,13 @@ impl Marked for Instance {
 }
 
 /// Time as the importer keeps it, s.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 pub struct Experiment {
     pub time: f64,
     pub stop_time: Option<f64>,
 }
 
-/// Something to tell the importer when the function ends.
+/// What the importer is told when a function ends.
 pub enum Message {
     Error(String),
     Warning(String),
@@ -45,7 +46,7 @@ pub enum Message {
 
 pub type Outcome = Result<(), Message>;
 
-/// An error of any of the rooms below, as a sentence.
+/// An error of the block, as a sentence.
 impl<E: std::error::Error> From<E> for Message {
     fn from(error: E) -> Self {
         Self::Error(error.to_string())
@@ -58,8 +59,8 @@ pub fn refuse(text: String) -> Outcome {
 }
 
 impl Instance {
-    /// What is read in Initialization Mode or in Model Exchange belongs to what was set before; in
-    /// Co-Simulation it belongs to the last step.
+    /// In Initialization Mode and in Model Exchange, outputs follow the inputs that were set; in
+    /// Co-Simulation they are those of the last step.
     pub fn refresh(&mut self) -> Result<(), BlockError> {
         if self.state == INITIALIZATION_MODE || self.interface == Interface::ModelExchange {
             self.block.update()
@@ -77,8 +78,8 @@ impl Instance {
     }
 }
 
-/// Runs the body of a function on its instance: refuses a call without an instance or in the
-/// wrong state, keeps panics inside, and logs what the body says.
+/// Runs the body of a function on its instance. Refuses a call without an instance or in the wrong
+/// state, catches panics, and logs the outcome.
 ///
 /// # Safety
 /// `component` is null or comes from fmi2Instantiate, is not freed, and no other call on it runs.
@@ -136,7 +137,7 @@ pub unsafe fn call(
                 logger.log(status, *category, text);
             }
         };
-        // A panic in here has nobody left to be told of.
+        // A panic in the logger cannot be logged.
         let _ = catch_unwind(AssertUnwindSafe(log));
     }
     status
@@ -151,12 +152,12 @@ fn prefixed(function: Function, text: &str) -> String {
     }
 }
 
-/// What a caught panic says.
+/// The sentence for a caught panic.
 fn internal_error(panic: &(dyn Any + Send)) -> String {
     let text = panic
         .downcast_ref::<&str>()
         .copied()
         .or_else(|| panic.downcast_ref::<String>().map(String::as_str))
         .unwrap_or("no message");
-    format!("internal error ({text}); the instance can be used on, but please report this")
+    format!("internal error ({text}); the instance can still be used, but please report this")
 }

@@ -1,18 +1,19 @@
 //! Which function may be called in which state: the tables of the standard's sections 4.2.4
 //! (Co-Simulation) and 3.2.3 (Model Exchange), one bit mask for each function and interface.
 //!
-//! An error does not change the state here, so that the states "error" and "fatal" are never
-//! entered; nor are those of a step that runs on, fails or is cancelled, because a step is done
-//! or refused within the call of fmi2DoStep.
+//! This FMU never enters the states "error" and "fatal", because an error does not change its
+//! state, nor those of a step that is in progress, failed or cancelled, because fmi2DoStep
+//! completes a step or refuses it.
 //!
 //! Where the tables have conditions on the variable, the block keeps them: what may be set when
 //! (`block::Stage`). The table allows fmi2SetTime in Event Mode to a "Pure Discrete-Time FMU" alone
 //! (condition 8), where it leads from one event to the next; this FMU has continuous states.
 
 use super::types::{FMI2_CO_SIMULATION, FMI2_MODEL_EXCHANGE, fmi2Enumeration};
+use serde::{Deserialize, Serialize};
 
 /// The interface for which an instance was made.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Interface {
     CoSimulation,
     ModelExchange,
@@ -152,7 +153,7 @@ impl Function {
         )
     }
 
-    /// Whether the function may be called in a state; if not, a sentence with the remedy.
+    /// An error, with the remedy, if the function must not be called in a state.
     pub fn check(self, interface: Interface, state: States) -> Result<(), String> {
         let legal = self.states(interface);
         if legal & state != 0 {
@@ -165,7 +166,7 @@ impl Function {
                 Interface::ModelExchange => Interface::CoSimulation,
             };
             return Err(format!(
-                "{name} belongs to {}, but the instance was made for {}; make one for the other",
+                "{name} belongs to {}, but the instance was made for {}; make another instance",
                 other.name(),
                 interface.name()
             ));
@@ -226,7 +227,7 @@ mod tests {
                 Interface::CoSimulation,
                 STEP_COMPLETE
             ),
-            "fmi2SetTime belongs to Model Exchange, but the instance was made for Co-Simulation; make one for the other"
+            "fmi2SetTime belongs to Model Exchange, but the instance was made for Co-Simulation; make another instance"
         );
         assert_eq!(
             refusal(Function::fmi2SetTime, Interface::ModelExchange, EVENT_MODE),

@@ -31,7 +31,7 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
             && (stop.is_nan() || stop < startTime)
         {
             return refuse(format!(
-                "stopTime = {stop} s lies before startTime = {startTime} s; pass a later one or none"
+                "stopTime = {stop} s is before startTime = {startTime} s; pass a later stopTime or none"
             ));
         }
         instance.experiment = Experiment {

@@ -11,7 +11,7 @@ use super::{
 use crate::block::variables::LOG_CATEGORIES;
 use std::ffi::CString;
 
-/// The declared categories, by their places in modelDescription.xml.
+/// The log categories, in the order in which modelDescription.xml declares them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Category {
     Error = 0,
@@ -29,7 +29,7 @@ pub struct Logger {
     pub environment: fmi2ComponentEnvironment,
     pub instance_name: CString,
     pub logging_on: bool,
-    /// The categories that fmi2SetDebugLogging chose; none: all.
+    /// The categories that fmi2SetDebugLogging chose; `None` for all.
     pub chosen: Option<[bool; LOG_CATEGORIES.len()]>,
 }
 
@@ -59,7 +59,7 @@ impl Logger {
     }
 }
 
-/// A C string; a NUL inside, which C cannot hold, becomes a blank.
+/// A C string. A NUL inside the text, which C would take for its end, becomes a blank.
 pub fn printable(text: &str) -> CString {
     CString::new(text.replace('\0', " ")).unwrap_or_default()
 }
@@ -91,7 +91,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
             return Ok(());
         }
         Err(Message::Warning(format!(
-            "there are no log categories {}; this FMU has {}",
+            "unknown log categories {}; this FMU has {}",
             unknown.join(", "),
             LOG_CATEGORIES.join(", ")
         )))

@@ -1,7 +1,7 @@
 //! The functions of Model Exchange: fmi2Functions.h, "Functions for FMI2 for Model Exchange".
 //!
-//! The importer integrates. There is no equation in which time itself stands, and no event
-//! indicator: what is discrete (`flowState`) asks for its event after a completed step.
+//! The importer integrates. No equation contains time itself, and there are no event indicators: a
+//! change of the one discrete output, `flowState`, asks for its event after a completed step.
 
 #![allow(non_snake_case)]
 
@@ -109,13 +109,13 @@ pub unsafe extern "C" fn fmi2SetTime(c: fmi2Component, time: fmi2Real) -> fmi2St
     unsafe { call(c, Function::fmi2SetTime, body) }
 }
 
-/// An error if an importer has another number of `what` than this FMU.
+/// An error if the importer's vector does not have as many `what` as this FMU.
 fn check_count(given: usize, count: usize, what: &str) -> Outcome {
     if given == count {
         return Ok(());
     }
     refuse(format!(
-        "room for {given} {what} is announced, but this FMU has {count}; pass that number"
+        "the vector has room for {given} {what}, but this FMU has {count}; pass that number"
     ))
 }
 

@@ -1,18 +1,18 @@
-//! Where the FMU's resources lie: where the importer says, else beside this library.
+//! Where the FMU's resources are: where the importer says, else beside this library.
 
 use super::creation::fmi2Instantiate;
 use crate::block::path_from_uri;
 use std::path::PathBuf;
 
-/// A folder that our resources have.
+/// A folder in our resources, by which they are recognised.
 const AIRFOILS: &str = "airfoils";
 
-/// The folder of the resources: the importer's URI (or plain path) if our files are in it, else the
-/// one beside `binaries/<platform>/`, where this library lies.
+/// The folder of the resources: the importer's URI (or plain path) if our files are in it, else
+/// `resources` beside `binaries/<platform>/`, where this library is.
 pub fn resources(location: Option<&str>) -> PathBuf {
     let given = location.map(|text| path_from_uri(text).unwrap_or_else(|| PathBuf::from(text)));
     let ours = given.filter(|path| path.join(AIRFOILS).is_dir());
-    // Made absolute, so that it stays the same folder when the importer changes its own.
+    // Made absolute, so that it stays the same folder if the importer changes the current one.
     if let Some(folder) = ours.and_then(|path| path.canonicalize().ok()) {
         return folder;
     }

@@ -28,8 +28,9 @@ pub const FMI2_TERMINATED: fmi2Enumeration = 3;
 
 pub const FMI2_FALSE: fmi2Boolean = 0;
 
-/// What a function answers. `fmi2Discard`, `fmi2Fatal` and `fmi2Pending` are never answered:
-/// nothing here can be repeated with a smaller step, condemns other instances or runs on.
+/// What a function answers. Three statuses are never answered: `fmi2Discard`, because no step may
+/// be repeated with a smaller size; `fmi2Fatal`, because no error affects other instances;
+/// `fmi2Pending`, because no step runs asynchronously.
 #[repr(C)]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum fmi2Status {

@@ -402,7 +402,7 @@ fn a_state_is_overwritten_where_there_is_one_and_freed_once() {
     let other = other.as_mut_ptr();
     for foreign in [other, other.wrapping_byte_add(1)] {
         let message = instance.refused(set(foreign.cast()));
-        assert!(message.contains("no state of this FMU"), "{message}");
+        assert!(message.contains("not a state of this FMU"), "{message}");
     }
     let message = instance.refused({
         // SAFETY: null is refused.

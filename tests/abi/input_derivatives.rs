@@ -260,7 +260,7 @@ fn only_finite_first_derivatives_of_inputs_are_taken() {
         i.set_input_derivatives(&[collective, 1], &[1, 2], &[0.1, 0.1])
     });
     for v in REALS.iter().filter(|v| v.causality != Causality::Input) {
-        refused(&[v.name, "no input"], |i| i.set_slope(v.name, 0.1));
+        refused(&[v.name, "not an input"], |i| i.set_slope(v.name, 0.1));
     }
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
         refused(&["rpm", "finite"], |i| {

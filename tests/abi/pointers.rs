@@ -267,11 +267,11 @@ fn what_is_no_instance_is_recognised() {
         }
         assert_eq!(value, 9.0);
     }
-    // An instance is no state, either.
+    // An instance is not a state, either.
     // SAFETY: the instance lives.
     let status = unsafe { (f.fmi2SetFMUstate)(instance.component, instance.component) };
     let message = instance.refused(status);
-    assert!(message.contains("no state of this FMU"), "{message}");
+    assert!(message.contains("not a state of this FMU"), "{message}");
     memory.is_untouched();
     assert_eq!(instance.set_state(&state), c::OK);
     assert_eq!(instance.step(0.0, 0.1), c::OK);

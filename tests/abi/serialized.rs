@@ -6,7 +6,7 @@ use crate::support::{
     child::{run_alone, watched},
     instance::bits,
 };
-use helicopter_rotor::block::variables::{Causality, GUID, REALS, STATES};
+use helicopter_rotor::block::variables::{GUID, REALS, STATES};
 use proptest::prelude::*;
 use std::{env, fs, path::PathBuf, ptr};
 
@@ -129,6 +129,10 @@ fn refusal(instance: &Instance, bytes: &[u8]) -> String {
 const GUID_AT: usize = 12;
 const LENGTH_AT: usize = GUID_AT + GUID.len();
 const CONTENT_AT: usize = LENGTH_AT + 8;
+/// After the interface, the state of the call sequence and the time.
+const STOP_AT: usize = CONTENT_AT + 2 + 8;
+/// After no stop time, and the number of Real variables in two bytes.
+const VALUES_AT: usize = STOP_AT + 1 + 2;
 
 /// CRC-32 as IEEE 802.3 defines it, bit by bit.
 fn crc32(bytes: &[u8]) -> u32 {
@@ -178,9 +182,9 @@ fn bytes_that_are_no_state_of_this_fmu_are_refused_with_the_reason() {
         b"another format altogether",
         &[0; 4000],
     ] {
-        refused(foreign, &["no serialized state of this FMU"]);
+        refused(foreign, &["not a serialized state of this FMU"]);
     }
-    refused(&changed(8, |b| b + 1), &["format 2", "reads 1"]);
+    refused(&changed(8, |b| b + 1), &["format 3", "reads 2"]);
     refused(&changed(GUID_AT + 5, |b| b ^ 1), &["GUID", GUID]);
     refused(&good[..good.len() - 1], &["cut short"]);
     refused(&good[..CONTENT_AT], &["cut short"]);
@@ -197,31 +201,41 @@ fn bytes_that_are_no_state_of_this_fmu_are_refused_with_the_reason() {
         bytes[place..place + value.len()].copy_from_slice(value);
         sealed(bytes)
     };
-    refused(&hostile(CONTENT_AT, &[7]), &["the interface"]);
-    refused(
-        &hostile(CONTENT_AT, &[0]),
-        &["the state of the call sequence"],
-    );
-    refused(
-        &hostile(CONTENT_AT + 1, &[0xff, 0xff]),
-        &["the state of the call sequence"],
-    );
+    let (unwritten, mode) = ("not written", "the call sequence");
+    refused(&hostile(CONTENT_AT, &[7]), &[unwritten]);
+    refused(&hostile(CONTENT_AT, &[1]), &[mode]);
+    // No state, two states at once, and one that this FMU never enters.
+    for state in [0, 3, 1 << 5, 0x7f] {
+        refused(&hostile(CONTENT_AT + 1, &[state]), &[mode]);
+    }
     let nan = f64::NAN.to_le_bytes();
-    refused(&hostile(CONTENT_AT + 3, &nan), &["the time"]);
-    // Where there is no stop time, and where a torque is no longer one that drives.
-    let unused = "not written";
-    let (minus_one, minus_zero) = ((-1.0_f64).to_le_bytes(), (-0.0_f64).to_le_bytes());
-    refused(&hostile(CONTENT_AT + 3 + 16, &minus_one), &[unused]);
-    refused(&hostile(CONTENT_AT + 3 + 8, &minus_zero), &[unused]);
-    let values = CONTENT_AT + 3 + 24;
-    let inputs = REALS.iter().filter(|v| v.causality == Causality::Input);
-    let operation = values + 8 * (REALS.len() + 2 * inputs.count() + STATES.len() + 1);
-    refused(&hostile(operation + 8 * 15, &[0; 8]), &[unused]);
+    refused(&hostile(CONTENT_AT + 2, &nan), &["time"]);
+    // Neither without nor with a stop time.
+    refused(&hostile(STOP_AT, &[2]), &[unwritten]);
+    refused(
+        &hostile(STOP_AT + 1, &[good[STOP_AT + 1] ^ 1]),
+        &[unwritten],
+    );
+    // The same state in more bytes than it needs.
+    let longer = [
+        &good[..=CONTENT_AT],
+        &[0x80 | 16, 0],
+        &good[CONTENT_AT + 2..],
+    ];
+    refused(&sealed(longer.concat()), &[unwritten]);
+    // What drives the rotor stands before torque and inertia.
+    let drive: Vec<u8> = ["driveTorque", "drive.inertia"]
+        .into_iter()
+        .flat_map(|name| instance.real(name).to_le_bytes())
+        .collect();
+    let drive = good.windows(16).position(|bytes| bytes == drive).unwrap() - 1;
+    refused(&hostile(drive, &[2]), &[unwritten]);
+    refused(&hostile(drive, &[0]), &["cannot be used"]);
     for (i, v) in REALS.iter().enumerate() {
-        refused(&hostile(values + 8 * i, &nan), &[v.name]);
+        refused(&hostile(VALUES_AT + 8 * i, &nan), &[v.name]);
         if v.min.is_finite() && !v.causality.is_computed() {
             refused(
-                &hostile(values + 8 * i, &(v.min - 1.0).to_le_bytes()),
+                &hostile(VALUES_AT + 8 * i, &(v.min - 1.0).to_le_bytes()),
                 &[v.name],
             );
         }
@@ -336,9 +350,8 @@ proptest! {
     ) {
         let mut bytes = good().to_vec();
         for (place, value) in changes {
-            // The numbers begin behind the interface and the state of the call sequence.
-            let first = CONTENT_AT + 3;
-            let place = if is_aligned && place > first { first + (place - first) / 8 * 8 } else { place };
+            let is_value = is_aligned && place > VALUES_AT;
+            let place = if is_value { VALUES_AT + (place - VALUES_AT) / 8 * 8 } else { place };
             bytes[place..place + 8].copy_from_slice(&value.to_le_bytes());
         }
         survives(&sealed(bytes))?;

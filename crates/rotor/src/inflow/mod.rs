@@ -1,7 +1,7 @@
 //! Inflow: the velocity that the rotor induces at its own blades.
 //!
-//! `Inflow` is the choice of model with its data. Each question about a model is one method with one
-//! `match`, so that the compiler lists what a new model has to answer:
+//! `Inflow` is the choice of model with its data. Each question about a model is one method with
+//! one `match`, so that the compiler lists what a new model has to answer:
 //!
 //! * a model in which each element finds its induced velocity is a file and an arm of
 //!   `ElementInflow::load`;

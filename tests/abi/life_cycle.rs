@@ -89,11 +89,7 @@ fn experiments_that_make_no_sense_are_refused() {
         (f64::NAN, None, "startTime"),
         (f64::INFINITY, None, "startTime"),
         (0.0, Some(f64::NAN), "stopTime"),
-        (
-            1.0,
-            Some(0.5),
-            "stopTime = 0.5 s lies before startTime = 1 s",
-        ),
+        (1.0, Some(0.5), "stopTime = 0.5 s is before startTime = 1 s"),
     ] {
         let instance = Instance::new();
         let message = instance.refused(instance.set_up(start, stop));

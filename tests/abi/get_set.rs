@@ -146,7 +146,7 @@ fn booleans_other_than_0_and_1_are_refused_with_the_choices() {
     for v in &BOOLEANS {
         for value in [2, -1, 256, i32::MAX, i32::MIN] {
             let kept = format!("keeps {}", i32::from(v.start));
-            let sentence = format!("{} = {value} is no choice", v.name);
+            let sentence = format!("{} = {value} is not allowed", v.name);
             let parts = [sentence.as_str(), "0 (false), 1 (true)", &kept];
             refused_at_the_start(&parts, |i| i.set_boolean(v.name, value));
         }
