@@ -237,8 +237,8 @@ mod tests {
     use super::super::variables::{real, string};
     use super::*;
 
-    fn operation() -> Operation {
-        Operation {
+    fn operating_point() -> OperatingPoint {
+        OperatingPoint {
             collective: 0.1,
             cyclic_longitudinal: 0.2,
             cyclic_lateral: 0.3,
@@ -268,7 +268,7 @@ mod tests {
         block.set_strings(&[string::AIRFOIL__FILE], &["ü"]).unwrap();
         let mut snapshot = block.snapshot();
         snapshot.since = Some(GridPoint(Since {
-            operation: operation(),
+            point: operating_point(),
             state: from_vector(&core::array::from_fn(|i| i as f64)),
             elapsed: 0.01,
         }));
@@ -314,7 +314,7 @@ mod tests {
         );
         let late = |s: &mut Snapshot| {
             s.since = Some(GridPoint(Since {
-                operation: operation(),
+                point: operating_point(),
                 state: State::default(),
                 elapsed: 2.0 * LONGEST_CELL,
             }));
