@@ -6,8 +6,9 @@
 //! completes a step or refuses it.
 //!
 //! Where the tables have conditions on the variable, the block keeps them: what may be set when
-//! (`block::Stage`). The table allows fmi2SetTime in Event Mode to a "Pure Discrete-Time FMU" alone
-//! (condition 8), where it leads from one event to the next; this FMU has continuous states.
+//! (`block::Stage`). The table marks fmi2SetTime in Event Mode for a "Pure Discrete-Time FMU" only
+//! (condition 8). Importers set the time of an event there with any FMU, and other exporters accept
+//! it; so does this one, in which no equation contains time.
 
 use super::types::{FMI2_CO_SIMULATION, FMI2_MODEL_EXCHANGE, fmi2Enumeration};
 use serde::{Deserialize, Serialize};
@@ -133,7 +134,7 @@ functions! {
     fmi2NewDiscreteStates: NEVER, EVENT_MODE;
     fmi2EnterContinuousTimeMode: NEVER, EVENT_MODE;
     fmi2CompletedIntegratorStep: NEVER, CONTINUOUS_TIME_MODE;
-    fmi2SetTime: NEVER, CONTINUOUS_TIME_MODE;
+    fmi2SetTime: NEVER, MODES;
     fmi2SetContinuousStates: NEVER, CONTINUOUS_TIME_MODE;
     fmi2GetDerivatives: NEVER, ME_READ;
     fmi2GetEventIndicators: NEVER, ME_READ;
@@ -230,8 +231,12 @@ mod tests {
             "fmi2SetTime belongs to Model Exchange, but the instance was made for Co-Simulation; make another instance"
         );
         assert_eq!(
-            refusal(Function::fmi2SetTime, Interface::ModelExchange, EVENT_MODE),
-            "fmi2SetTime must not be called in the state Event Mode; it may be called in Continuous-Time Mode"
+            refusal(
+                Function::fmi2SetContinuousStates,
+                Interface::ModelExchange,
+                EVENT_MODE
+            ),
+            "fmi2SetContinuousStates must not be called in the state Event Mode; it may be called in Continuous-Time Mode"
         );
     }
 }

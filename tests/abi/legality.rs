@@ -31,8 +31,8 @@ const MODEL_EXCHANGE: usize = 4;
 /// of Model Exchange, `C` one of Co-Simulation.
 ///
 /// fmi2Instantiate makes another instance, which does not depend on the state of this one.
-/// fmi2SetTime in Event Mode is for a "Pure Discrete-Time FMU" only (condition 8 of the table),
-/// which this one is not.
+/// fmi2SetTime in Event Mode is marked for a "Pure Discrete-Time FMU" only (condition 8 of the
+/// table); it is accepted as other exporters accept it.
 const TABLE: &str = "
     fmi2GetTypesPlatform              xxxx xxxxx
     fmi2GetVersion                    xxxx xxxxx
@@ -72,7 +72,7 @@ const TABLE: &str = "
     fmi2NewDiscreteStates             MMMM --x--
     fmi2EnterContinuousTimeMode       MMMM --x--
     fmi2CompletedIntegratorStep       MMMM ---x-
-    fmi2SetTime                       MMMM ---x-
+    fmi2SetTime                       MMMM --xx-
     fmi2SetContinuousStates           MMMM ---x-
     fmi2GetDerivatives                MMMM -xxxx
     fmi2GetEventIndicators            MMMM -xxxx
