@@ -414,7 +414,7 @@ fn judged(
         BlockError::Setup(
             SetupError::DiscCannotFlap
             | SetupError::ClosedFormCannotFlap
-            | SetupError::ClosedFormKnowsNoGround,
+            | SetupError::ClosedFormNearGround,
         ) if is_refusal_expected => Outcome::Refused,
         BlockError::Unsolved(SolveError::NoSteadyState, _) => Outcome::NoSteadyState,
         BlockError::Unsolved(..) => Outcome::Unsolved,

@@ -1,6 +1,7 @@
 //! The rotor as a block of named variables: which variable feeds which quantity of the physics.
 //! Neutral of the FMI version.
 
+mod airfoils;
 mod bytes;
 mod derivative;
 mod flight_condition;
