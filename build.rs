@@ -1,5 +1,5 @@
-//! Makes the FMU's face from `modelDescription/*.toml`: modelDescription.xml, the Rust constants
-//! that the code uses, and the documentation's table of variables, so that they cannot disagree.
+//! Makes modelDescription.xml, the Rust constants of the variables and the documentation's tables
+//! from `modelDescription/*.toml`, so that the three always agree.
 
 #[path = "build/table.rs"]
 mod table;
@@ -31,6 +31,6 @@ fn main() -> Result<(), Box<dyn Error>> {
         xml::model_description(&table, &version, &guid)?,
     )?;
     fs::write(out.join("variables.rs"), rust::constants(&table, &guid)?)?;
-    fs::write(out.join("variables.html"), html::variables(&table))?;
+    fs::write(out.join("variables.html"), html::tables(&table))?;
     Ok(())
 }

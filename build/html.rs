@@ -1,8 +1,8 @@
-//! The documentation's table of variables.
+//! The documentation's tables of variables and choices.
 
 use crate::table::{Base, Table, Variable};
 
-pub fn variables(table: &Table) -> String {
+pub fn tables(table: &Table) -> String {
     let mut html = String::new();
     for (causality, title) in [
         ("input", "Inputs"),
@@ -13,27 +13,13 @@ pub fn variables(table: &Table) -> String {
         html += &format!(
             "<h3>{title}</h3>\n<table>\n<tr><th>Name</th><th>Unit or type</th><th>Default</th><th>Range</th><th>Meaning</th></tr>\n"
         );
-        // Of the elements of a row only the first is shown, with the range of all.
+        // An array has one row, which names the range of its indices.
         let rows = table
             .variables
             .iter()
             .filter(|v| v.causality == causality && (v.count.is_none() || v.name.contains("[1]")));
         for v in rows {
-            html += &format!(
-                "<tr><td><code>{}</code></td><td>{}</td><td>{}</td><td>{}</td><td>{}{}</td></tr>\n",
-                v.count.map_or(v.name.clone(), |n| v
-                    .name
-                    .replace("[1]", &format!("[1..{n}]"))),
-                unit_or_type(v),
-                default(table, v),
-                range(table, v),
-                escape(&v.description),
-                if v.variability() == "tunable" {
-                    " (tunable)"
-                } else {
-                    ""
-                },
-            );
+            html += &variable_row(table, v);
         }
         html += "</table>\n";
     }
@@ -51,6 +37,22 @@ pub fn variables(table: &Table) -> String {
     }
     html += "</table>\n";
     html
+}
+
+fn variable_row(table: &Table, v: &Variable) -> String {
+    let name = match v.count {
+        Some(n) => v.name.replace("[1]", &format!("[1..{n}]")),
+        None => v.name.clone(),
+    };
+    let is_tunable = v.variability() == "tunable";
+    format!(
+        "<tr><td><code>{name}</code></td><td>{}</td><td>{}</td><td>{}</td><td>{}{}</td></tr>\n",
+        unit_or_type(v),
+        default(table, v),
+        range(table, v),
+        escape(&v.description),
+        if is_tunable { " (tunable)" } else { "" },
+    )
 }
 
 fn unit_or_type(v: &Variable) -> String {
@@ -91,7 +93,7 @@ fn range(table: &Table, v: &Variable) -> String {
     }
 }
 
-/// Factor, offset and name of the display unit, if the variable has one.
+/// Factor, offset and name of the display unit. Without one they change nothing.
 fn shown_in<'a>(table: &'a Table, v: &'a Variable) -> (f64, f64, &'a str) {
     let unit = table
         .units

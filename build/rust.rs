@@ -1,12 +1,23 @@
-//! The Rust constants that the code uses: one static array of variables for each FMI base type,
-//! the places in it by name, and one Rust enumeration for each of the table's.
+//! The Rust constants that the code uses: one static array of variables for each FMI base type, the
+//! value references by name, and a Rust enumeration for each enumeration of the table.
 
-use crate::table::{Base, Table, Variable};
+use crate::table::{Base, Enumeration, Table, Variable};
 use std::fmt::{self, Write};
 
 pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
     let mut text = String::new();
     let out = &mut text;
+    identification(out, table, guid)?;
+    variables(out, table)?;
+    continuous_states(out, table)?;
+    for enumeration in &table.enumerations {
+        rust_enumeration(out, enumeration)?;
+    }
+    Ok(text)
+}
+
+/// The GUID, the model identifier and the log categories.
+fn identification(out: &mut String, table: &Table, guid: &str) -> fmt::Result {
     writeln!(out, "/// Fingerprint of modelDescription.xml.")?;
     writeln!(out, "pub const GUID: &str = {guid:?};")?;
     writeln!(out, "/// `modelIdentifier` of modelDescription.xml.")?;
@@ -20,13 +31,16 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
         .iter()
         .map(|c| c.name.as_str())
         .collect();
-    writeln!(out, "/// The log categories that are declared.")?;
+    writeln!(out, "/// The log categories of modelDescription.xml.")?;
     writeln!(
         out,
         "pub const LOG_CATEGORIES: [&str; {}] = {categories:?};",
         categories.len()
-    )?;
+    )
+}
 
+/// For each base type the array of its variables, and a module of their value references.
+fn variables(out: &mut String, table: &Table) -> fmt::Result {
     for (base, module, array, rust_type, reference) in [
         (Base::Real, "real", "REALS", "f64", "RealRef"),
         (Base::Integer, "integer", "INTEGERS", "i32", "IntegerRef"),
@@ -50,32 +64,10 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
             writeln!(out, "    {},", row(table, v))?;
         }
         writeln!(out, "];")?;
-        writeln!(out, "/// Value references, which are places in `{array}`.")?;
+        writeln!(out, "/// Value references, which are indices of `{array}`.")?;
         writeln!(out, "pub mod {module} {{")?;
         writeln!(out, "    use super::{reference};")?;
-        for (i, v) in variables.iter().enumerate() {
-            writeln!(out, "    /// {}", doc(&v.description))?;
-            writeln!(
-                out,
-                "    pub const {}: {reference} = {reference}::at({i});",
-                constant_name(&v.name)
-            )?;
-            // Before the first element of an array: all of them.
-            let row = |v: &Variable| v.element_of.clone();
-            let Some(name) = row(v).filter(|_| i == 0 || row(variables[i - 1]) != row(v)) else {
-                continue;
-            };
-            let elements = variables.iter().filter(|other| row(other) == row(v));
-            let names: Vec<String> = elements.map(|v| constant_name(&v.name)).collect();
-            writeln!(out, "    /// {}", doc(&v.description))?;
-            writeln!(
-                out,
-                "    pub const {}: [{reference}; {}] = [{}];",
-                constant_name(&name.replace("[#]", "")),
-                names.len(),
-                names.join(", ")
-            )?;
-        }
+        references(out, reference, &variables)?;
         writeln!(out, "}}")?;
     }
     writeln!(out, "/// Number of the Real inputs, which come first.")?;
@@ -84,7 +76,42 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
         out,
         "pub const INPUTS: usize = {};",
         inputs.filter(|v| v.causality == "input").count()
-    )?;
+    )
+}
+
+/// A constant for the value reference of each variable, and one for those of each array.
+fn references(out: &mut String, reference: &str, variables: &[&Variable]) -> fmt::Result {
+    for (i, v) in variables.iter().enumerate() {
+        writeln!(out, "    /// {}", doc(&v.description))?;
+        writeln!(
+            out,
+            "    pub const {}: {reference} = {reference}::at({i});",
+            constant_name(&v.name)
+        )?;
+        let Some(array) = &v.element_of else {
+            continue;
+        };
+        let is_first = i == 0 || variables[i - 1].element_of.as_ref() != Some(array);
+        if !is_first {
+            continue;
+        }
+        let elements = variables
+            .iter()
+            .filter(|other| other.element_of.as_ref() == Some(array));
+        let names: Vec<String> = elements.map(|v| constant_name(&v.name)).collect();
+        writeln!(out, "    /// {}", doc(&v.description))?;
+        writeln!(
+            out,
+            "    pub const {}: [{reference}; {}] = [{}];",
+            constant_name(&array.replace("[#]", "")),
+            names.len(),
+            names.join(", ")
+        )?;
+    }
+    Ok(())
+}
+
+fn continuous_states(out: &mut String, table: &Table) -> fmt::Result {
     writeln!(out, "/// The continuous states, in their order.")?;
     writeln!(
         out,
@@ -100,39 +127,37 @@ pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
             state.nominal.unwrap_or(1.0)
         )?;
     }
-    writeln!(out, "];")?;
-    for enumeration in &table.enumerations {
-        writeln!(out, "/// {}", doc(&enumeration.description))?;
-        writeln!(out, "#[derive(Clone, Copy, Debug, PartialEq, Eq)]")?;
-        writeln!(out, "pub enum {} {{", enumeration.name)?;
-        for item in &enumeration.items {
-            writeln!(out, "    /// {}", doc(&item.description))?;
-            writeln!(out, "    {} = {},", camel(&item.name), item.value)?;
-        }
-        writeln!(out, "}}")?;
-        writeln!(out, "impl {} {{", enumeration.name)?;
-        writeln!(
-            out,
-            "    /// The choice behind the integer that FMI passes."
-        )?;
-        writeln!(
-            out,
-            "    pub fn from_integer(value: i32) -> Option<Self> {{"
-        )?;
-        writeln!(out, "        match value {{")?;
-        for item in &enumeration.items {
-            writeln!(
-                out,
-                "            {} => Some(Self::{}),",
-                item.value,
-                camel(&item.name)
-            )?;
-        }
-        writeln!(out, "            _ => None,\n        }}\n    }}\n}}")?;
-    }
-    Ok(text)
+    writeln!(out, "];")
 }
 
+fn rust_enumeration(out: &mut String, enumeration: &Enumeration) -> fmt::Result {
+    writeln!(out, "/// {}", doc(&enumeration.description))?;
+    writeln!(out, "#[derive(Clone, Copy, Debug, PartialEq, Eq)]")?;
+    writeln!(out, "pub enum {} {{", enumeration.name)?;
+    for item in &enumeration.items {
+        writeln!(out, "    /// {}", doc(&item.description))?;
+        writeln!(out, "    {} = {},", camel(&item.name), item.value)?;
+    }
+    writeln!(out, "}}")?;
+    writeln!(out, "impl {} {{", enumeration.name)?;
+    writeln!(out, "    /// The choice for the integer that FMI passes.")?;
+    writeln!(
+        out,
+        "    pub fn from_integer(value: i32) -> Option<Self> {{"
+    )?;
+    writeln!(out, "        match value {{")?;
+    for item in &enumeration.items {
+        writeln!(
+            out,
+            "            {} => Some(Self::{}),",
+            item.value,
+            camel(&item.name)
+        )?;
+    }
+    writeln!(out, "            _ => None,\n        }}\n    }}\n}}")
+}
+
+/// The `Variable` of the array for a variable of the table.
 fn row(table: &Table, v: &Variable) -> String {
     let (start, min, max) = match v.base() {
         Base::Real => (
@@ -165,7 +190,7 @@ fn row(table: &Table, v: &Variable) -> String {
             let enumeration = table.enumeration(&v.kind);
             let start = match table.enumeration_start(v) {
                 Some(value) => i64::from(value),
-                // A computed enumeration is one of its items before it is computed, too.
+                // Before it is computed, an output of an enumeration type is its first item.
                 None if enumeration.is_some() => 1,
                 None => v.start.as_ref().and_then(|s| s.as_integer()).unwrap_or(0),
             };
@@ -193,8 +218,8 @@ fn row(table: &Table, v: &Variable) -> String {
 }
 
 /// `geometry.radius` -> `GEOMETRY__RADIUS`, `airDensity` -> `AIR_DENSITY`, `force[1]` -> `FORCE_1`,
-/// `der(azimuth)` -> `DER_AZIMUTH`.
-/// The two underscores keep `air.density` and `airDensity` apart.
+/// `der(azimuth)` -> `DER_AZIMUTH`. The two underscores distinguish `air.density` from
+/// `airDensity`.
 fn constant_name(name: &str) -> String {
     let mut constant = String::new();
     for c in name.chars() {

@@ -1,4 +1,4 @@
-//! The tables of variables and units as read from their TOML files, and what they must satisfy.
+//! The tables of variables and units, read from their TOML files and checked.
 
 use serde::Deserialize;
 use std::{collections::BTreeMap, error::Error, fs};
@@ -32,7 +32,7 @@ pub struct Experiment {
     pub start_time: f64,
     pub stop_time: f64,
     pub step_size: f64,
-    /// Relative, for solvers of Model Exchange.
+    /// Relative tolerance for solvers of Model Exchange.
     pub tolerance: f64,
 }
 
@@ -80,11 +80,10 @@ pub struct Variable {
     pub rate_depends_on: Option<Vec<String>>,
     pub count: Option<usize>,
     pub description: String,
-    /// Name of the state whose derivative this is. Such variables are not in the file but added
-    /// here.
+    /// Name of the state whose derivative this is. Such a variable is not in the file.
     #[serde(skip)]
     pub derivative_of: Option<String>,
-    /// Name of its row, with `#`, if that is an array.
+    /// Name of the array that this is an element of, with its `#`.
     #[serde(skip)]
     pub element_of: Option<String>,
 }
@@ -119,7 +118,7 @@ pub struct DisplayUnit {
     pub offset: Option<f64>,
 }
 
-/// The FMI base type of a variable: the arrays of values that the code keeps.
+/// The base types of the arrays in which the code keeps values. Enumerations are integers.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Base {
     Real,
@@ -145,26 +144,7 @@ impl Table {
             .collect::<Result<Vec<_>, _>>()
             .map_err(|e| format!("{variables}: {e}"))?;
         table.variables.extend(derivatives);
-        let reals: Vec<&Variable> = table.of_base(Base::Real).collect();
-        if !reals.is_sorted_by_key(|v| v.causality != "input") {
-            return Err(format!("{variables}: the Real inputs must come first").into());
-        }
-        drop(reals);
-        for enumeration in &table.enumerations {
-            let numbers = enumeration.items.iter().map(|item| item.value);
-            if !numbers.eq(1..=enumeration.items.len() as i32) {
-                return Err(format!(
-                    "{variables}: the items of {} must carry the numbers 1, 2, 3 ... in this order",
-                    enumeration.name
-                )
-                .into());
-            }
-        }
-        for variable in &table.variables {
-            table
-                .check(variable)
-                .map_err(|e| format!("{variables}: {}: {e}", variable.name))?;
-        }
+        table.check().map_err(|e| format!("{variables}: {e}"))?;
         Ok(table)
     }
 
@@ -189,7 +169,7 @@ impl Table {
             .iter()
             .find(|u| Some(&u.name) == state.unit.as_ref());
         let unit = unit.and_then(|u| u.per_second.clone()).ok_or(format!(
-            "{}: units.toml names no unit perSecond for the derivative of a state in {:?}",
+            "{}: units.toml has no perSecond for the unit {:?} of this state; add it, for the derivative",
             state.name, state.unit
         ))?;
         Ok(Variable {
@@ -198,7 +178,8 @@ impl Table {
             unit: Some(unit),
             display_unit: None,
             depends_on: state.rate_depends_on.clone(),
-            // Beyond its states, a rate depends on all parameters or on none.
+            // Without a list of its own it depends on all inputs, states and parameters. With one
+            // it depends on parameters by way of its states only.
             parameter_groups: state.rate_depends_on.as_ref().map(|_| Vec::new()),
             nominal: None,
             starts_from: None,
@@ -214,7 +195,7 @@ impl Table {
         self.enumerations.iter().find(|e| e.name == name)
     }
 
-    /// Value reference: the variable's place among those of its base type.
+    /// Value reference: the variable's index among those of its base type.
     pub fn value_reference(&self, variable: &Variable) -> usize {
         self.of_base(variable.base())
             .position(|v| v.name == variable.name)
@@ -233,7 +214,7 @@ impl Table {
             .map(|i| i + 1)
     }
 
-    /// The integer behind an enumeration's start value.
+    /// The integer for the start value of an enumeration variable.
     pub fn enumeration_start(&self, variable: &Variable) -> Option<i32> {
         let name = variable.start.as_ref()?.as_str()?;
         let items = &self.enumeration(&variable.kind)?.items;
@@ -248,15 +229,56 @@ impl Table {
         })
     }
 
-    fn check(&self, v: &Variable) -> Result<(), String> {
+    fn check(&self) -> Result<(), String> {
+        let reals: Vec<&Variable> = self.of_base(Base::Real).collect();
+        if !reals.is_sorted_by_key(|v| v.causality != "input") {
+            return Err("the Real inputs must come first".into());
+        }
+        for enumeration in &self.enumerations {
+            let numbers = enumeration.items.iter().map(|item| item.value);
+            if !numbers.eq(1..=enumeration.items.len() as i32) {
+                return Err(format!(
+                    "the items of {} must have the numbers 1, 2, 3 ... in this order",
+                    enumeration.name
+                ));
+            }
+        }
+        for variable in &self.variables {
+            let checked = self
+                .check_kind(variable)
+                .and_then(|()| self.check_start(variable))
+                .and_then(|()| self.check_unit(variable))
+                .and_then(|()| self.check_dependencies(variable));
+            checked.map_err(|e| format!("{}: {e}", variable.name))?;
+        }
+        Ok(())
+    }
+
+    /// Name, type, causality and variability.
+    fn check_kind(&self, v: &Variable) -> Result<(), String> {
         if self.variables.iter().filter(|o| o.name == v.name).count() > 1 {
-            return Err("is written twice".into());
+            return Err("the name is used twice".into());
+        }
+        let is_base_type = ["Real", "Integer", "Boolean", "String"].contains(&v.kind.as_str());
+        if !is_base_type && self.enumeration(&v.kind).is_none() {
+            return Err(format!(
+                "type {:?} is neither a base type nor an enumeration",
+                v.kind
+            ));
         }
         if !["input", "output", "local", "parameter"].contains(&v.causality.as_str()) {
             return Err(format!("causality {:?} is not known", v.causality));
         }
+        if !["continuous", "discrete", "fixed", "tunable"].contains(&v.variability()) {
+            return Err(format!("variability {:?} is not known", v.variability()));
+        }
+        Ok(())
+    }
+
+    /// The start value, against type, causality and range.
+    fn check_start(&self, v: &Variable) -> Result<(), String> {
         if ["output", "local"].contains(&v.causality.as_str()) == v.start.is_some() {
-            return Err("inputs and parameters have a start value, others have none".into());
+            return Err("inputs and parameters have a start value, others do not".into());
         }
         let start_fits = match (v.kind.as_str(), &v.start) {
             (_, None) => true,
@@ -267,36 +289,54 @@ impl Table {
             _ => self.enumeration_start(v).is_some(),
         };
         if !start_fits {
-            return Err(format!("start {:?} is not of the type {}", v.start, v.kind));
+            return Err(format!("start {:?} is not of type {}", v.start, v.kind));
         }
-        if v.kind == "Real" {
-            let unit = v.unit.as_ref().ok_or("has no unit")?;
-            let unit = self.units.iter().find(|u| &u.name == unit);
-            let unit = unit.ok_or("names a unit that units.toml does not define")?;
-            if let Some(d) = &v.display_unit
-                && !unit.display.iter().any(|u| &u.name == d)
-            {
-                return Err(format!("unit {} has no display unit {d}", unit.name));
-            }
+        let start = v.start.as_ref();
+        let number = start.and_then(|s| s.as_float().or(s.as_integer().map(|i| i as f64)));
+        if let Some(x) = number
+            && (v.min.is_some_and(|min| x < min) || v.max.is_some_and(|max| x > max))
+        {
+            return Err(format!("start {x} is outside min and max"));
         }
+        Ok(())
+    }
+
+    fn check_unit(&self, v: &Variable) -> Result<(), String> {
+        if v.kind != "Real" {
+            return Ok(());
+        }
+        let unit = v.unit.as_ref().ok_or("a Real needs a unit")?;
+        let unit = self.units.iter().find(|u| &u.name == unit);
+        let unit = unit.ok_or("units.toml does not define its unit")?;
+        if let Some(d) = &v.display_unit
+            && !unit.display.iter().any(|u| &u.name == d)
+        {
+            return Err(format!("unit {} has no display unit {d}", unit.name));
+        }
+        Ok(())
+    }
+
+    fn check_dependencies(&self, v: &Variable) -> Result<(), String> {
         let is_state = v.nominal.is_some();
         let is_unknown = v.causality == "output" || is_state || v.derivative_of.is_some();
-        let mut named = v.depends_on.iter().chain(&v.rate_depends_on).flatten();
+        let mut dependencies = v.depends_on.iter().chain(&v.rate_depends_on).flatten();
         let is_known = |name: &String| self.inputs().chain(self.states()).any(|k| &k.name == name);
-        if let Some(name) = named.find(|name| !is_known(name)) {
+        if let Some(name) = dependencies.find(|name| !is_known(name)) {
             return Err(format!(
                 "depends on {name}, which is neither an input nor a state"
             ));
         }
-        let mut named = v.starts_from.iter().flatten();
-        if let Some(name) = named.find(|name| !self.inputs().any(|i| &i.name == *name)) {
+        let mut inputs = v.starts_from.iter().flatten();
+        if let Some(name) = inputs.find(|name| !self.inputs().any(|i| &i.name == *name)) {
             return Err(format!("starts from {name}, which is not an input"));
         }
         if !is_unknown && (v.depends_on.is_some() || v.parameter_groups.is_some()) {
-            return Err("only outputs and states depend on anything".into());
+            return Err("only outputs and states have dependsOn or parameterGroups".into());
         }
         if !is_state && (v.starts_from.is_some() || v.rate_depends_on.is_some()) {
-            return Err("only a state, which has a nominal value, has a start and a rate".into());
+            return Err(
+                "only a state, which has a nominal value, has startsFrom or rateDependsOn".into(),
+            );
         }
         if v.nominal.is_some_and(|n| n <= 0.0) || (is_state && v.variability() != "continuous") {
             return Err("a state is a continuous Real with a positive nominal value".into());
@@ -304,33 +344,16 @@ impl Table {
         for group in v.parameter_groups.iter().flatten() {
             if self.parameters(Some(group)).next().is_none() {
                 return Err(format!(
-                    "depends on parameters of the group {group}, which has none"
+                    "depends on parameters of the group {group}, which has no parameters"
                 ));
             }
-        }
-        if !["continuous", "discrete", "fixed", "tunable"].contains(&v.variability()) {
-            return Err(format!("variability {:?} is not known", v.variability()));
-        }
-        let known = ["Real", "Integer", "Boolean", "String"].contains(&v.kind.as_str());
-        if !known && self.enumeration(&v.kind).is_none() {
-            return Err(format!(
-                "type {:?} is neither a base type nor an enumeration",
-                v.kind
-            ));
-        }
-        let start = v.start.as_ref();
-        let number = start.and_then(|s| s.as_float().or(s.as_integer().map(|i| i as f64)));
-        if let Some(x) = number
-            && (v.min.is_some_and(|min| x < min) || v.max.is_some_and(|max| x > max))
-        {
-            return Err(format!("start {x} is out of its own range"));
         }
         Ok(())
     }
 }
 
 impl Variable {
-    /// The variables behind a row: one, or `count` with 1, 2 ... in place of `#` in the name.
+    /// The variables of a row: one, or `count` of them with 1, 2 ... for `#` in the name.
     fn elements(&self) -> Vec<Self> {
         let Some(count) = self.count else {
             return vec![self.clone()];

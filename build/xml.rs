@@ -64,7 +64,7 @@ pub fn model_description(table: &Table, version: &str, guid: &str) -> io::Result
     Ok(bytes)
 }
 
-/// The flags that both interfaces have, with the same values.
+/// The capability flags of both interfaces.
 const FLAGS: [(&str, &str); 6] = [
     ("needsExecutionTool", "false"),
     ("canBeInstantiatedOnlyOncePerProcess", "false"),
@@ -249,8 +249,9 @@ fn start_text(table: &Table, v: &Variable) -> Option<String> {
     })
 }
 
-/// Outputs and derivatives with the inputs and states on which they depend, and all of these and
-/// the states as initial unknowns with the inputs and parameters on which they depend at the start.
+/// Outputs and derivatives, with the inputs and states on which they depend. Then the initial
+/// unknowns, which are outputs, derivatives and states, with the inputs and parameters on which
+/// they depend at the start.
 fn model_structure(xml: &mut Xml, table: &Table) -> io::Result<()> {
     let is_output = |v: &&Variable| v.causality == "output";
     let is_initial =
@@ -280,11 +281,11 @@ fn model_structure(xml: &mut Xml, table: &Table) -> io::Result<()> {
 /// The inputs and states on which an output or a derivative depends.
 fn knowns<'a>(table: &'a Table, v: &Variable) -> Vec<&'a Variable> {
     let all = table.inputs().chain(table.states());
-    all.filter(|known| names(&v.depends_on, known)).collect()
+    all.filter(|known| contains(&v.depends_on, known)).collect()
 }
 
-/// The inputs and parameters on which a variable depends at the start: its own, and those of the
-/// states on which it depends.
+/// The inputs and parameters on which a variable depends at the start, directly or by way of
+/// states.
 fn initial_knowns<'a>(table: &'a Table, v: &Variable) -> Vec<&'a Variable> {
     if v.nominal.is_some() {
         return from_start(table, v);
@@ -303,18 +304,18 @@ fn initial_knowns<'a>(table: &'a Table, v: &Variable) -> Vec<&'a Variable> {
 
 /// The inputs and parameters on which a state depends at the start.
 fn from_start<'a>(table: &'a Table, state: &Variable) -> Vec<&'a Variable> {
-    let inputs = table.inputs().filter(|i| names(&state.starts_from, i));
+    let inputs = table.inputs().filter(|i| contains(&state.starts_from, i));
     inputs
         .chain(parameters(table, &state.parameter_groups))
         .collect()
 }
 
-/// Whether a list names a variable; one that is absent names all.
-fn names(list: &Option<Vec<String>>, variable: &Variable) -> bool {
+/// Whether a list contains a variable. Without a list all variables are meant.
+fn contains(list: &Option<Vec<String>>, variable: &Variable) -> bool {
     list.as_ref().is_none_or(|l| l.contains(&variable.name))
 }
 
-/// The parameters of a list of groups, or all if it is absent.
+/// The parameters of a list of groups, or all parameters without a list.
 fn parameters<'a>(
     table: &'a Table,
     groups: &Option<Vec<String>>,
@@ -325,7 +326,7 @@ fn parameters<'a>(
     })
 }
 
-/// The indices of what an unknown depends on stand in ascending order, each once.
+/// Writes an unknown with the indices of its dependencies, in ascending order and each once.
 fn unknown(xml: &mut Xml, table: &Table, v: &Variable, known: &[&Variable]) -> io::Result<()> {
     let index = table.index(&v.name).unwrap_or_default().to_string();
     let known: BTreeSet<usize> = known.iter().filter_map(|k| table.index(&k.name)).collect();
@@ -337,7 +338,7 @@ fn unknown(xml: &mut Xml, table: &Table, v: &Variable, known: &[&Variable]) -> i
     Ok(())
 }
 
-/// Shortest text that reads back as the same double.
+/// The shortest text that reads back as the same double.
 fn number(value: f64) -> String {
     format!("{value:?}")
 }

@@ -1,5 +1,4 @@
-//! The FMU's face as the build made it from modelDescription/: for the program that packages the
-//! FMU.
+//! The texts that the build makes from modelDescription/, for the program that packages the FMU.
 
 /// modelDescription.xml, whose GUID is that of this library.
 pub const XML: &str = include_str!(concat!(env!("OUT_DIR"), "/modelDescription.xml"));

@@ -1,7 +1,7 @@
 //! `HelicopterRotor.fmu`: a helicopter rotor behind FMI 2.0, for Co-Simulation and Model Exchange.
 //!
-//! Data flows one way: importer, `fmi2`, `block`, the crate `rotor`, and back. `rotor` is the
-//! physics, `block` says which variable feeds which quantity, `fmi2` is the C interface.
+//! Data flows one way: importer, `fmi2`, `block`, the crate `rotor`, and back. `fmi2` is the C
+//! interface, `block` says which variable feeds which quantity, and `rotor` is the physics.
 
 pub mod block;
 pub mod description;

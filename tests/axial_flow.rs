@@ -1,5 +1,4 @@
-//! Axial flow past the default rotor: limits, symmetries and balances that a reader can check on
-//! paper.
+//! Axial flow past the default rotor: limits, symmetries and balances that can be checked on paper.
 
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
@@ -7,18 +6,11 @@
 #[path = "support/block.rs"]
 mod support;
 
-use helicopter_rotor::block::{
-    RotorBlock,
-    variables::{RealRef, integer, real, string},
-};
+use helicopter_rotor::block::variables::{RealRef, integer, real, string};
 use std::f64::consts::PI;
-use support::{computed, default_block, get};
+use support::{computed, default_block, get, set_string, thrust};
 
-fn thrust(reals: &[(RealRef, f64)]) -> f64 {
-    get(&computed(reals, &[]), real::THRUST)
-}
-
-/// Hover is not a special case. Other codes have no thrust, or a dip, at exactly V = 0.
+/// Hover is no special case. Some codes have no thrust, or a dip in it, at exactly V = 0.
 #[test]
 fn thrust_in_hover_lies_on_the_line_between_slow_climb_and_slow_descent() {
     for collective in [-0.1, 0.02, 0.14, 0.3] {
@@ -41,17 +33,17 @@ fn thrust_in_hover_lies_on_the_line_between_slow_climb_and_slow_descent() {
 }
 
 #[test]
-fn a_rotor_at_rest_in_still_air_has_no_load() {
+fn a_stopped_rotor_in_still_air_has_no_load() {
     let block = computed(&[(real::RPM, 0.0)], &[]);
-    for (place, value) in block.values().reals.iter().enumerate() {
-        assert!(value.is_finite(), "{place}");
+    for (reference, value) in block.values().reals.iter().enumerate() {
+        assert!(value.is_finite(), "{reference}");
     }
     assert_eq!(get(&block, real::THRUST), 0.0);
     assert_eq!(get(&block, real::TORQUE), 0.0);
     assert_eq!(get(&block, real::THRUST_COEFFICIENT), 0.0);
 }
 
-/// Wind from below on a stopped rotor with flat pitch pushes it up by the drag of its blades.
+/// Wind from below pushes a stopped rotor with flat pitch up by the drag of its blades.
 #[test]
 fn wind_on_a_stopped_rotor_pushes_it_along() {
     let pushed = |wind| {
@@ -63,14 +55,14 @@ fn wind_on_a_stopped_rotor_pushes_it_along() {
     };
     let blade_area = 4.0 * 0.0508 * 0.762 * 5.0 / 6.0;
     let plate = 0.5 * 1.225 * 100.0 * blade_area * 2.0;
-    // The plate's drag coefficient of 2.01, and the friction at this low Reynolds number.
+    // The drag coefficient of the plate is 2.01. Friction at this low Reynolds number adds to it.
     let ratio = pushed(10.0) / plate;
     assert!((1.0..1.03).contains(&ratio), "{ratio}");
     assert!((pushed(-10.0) + pushed(10.0)).abs() < 1e-9 * plate);
 }
 
 #[test]
-fn pitch_of_the_other_sign_mirrors_the_thrust_and_keeps_the_torque() {
+fn negative_pitch_changes_the_sign_of_the_thrust_and_keeps_the_torque() {
     for inflow in [1, 2] {
         let at = |pitch| {
             computed(
@@ -87,10 +79,10 @@ fn pitch_of_the_other_sign_mirrors_the_thrust_and_keeps_the_torque() {
 }
 
 #[test]
-fn no_pitch_no_thrust_and_the_torque_of_profile_drag() {
+fn flat_pitch_has_no_thrust_and_the_torque_of_profile_drag() {
     let block = computed(&[(real::COLLECTIVE, 0.0)], &[]);
     assert_eq!(get(&block, real::THRUST), 0.0);
-    // sigma cd0/8 (1 - cutout^4) with cd0 of the file, which is corrected for Reynolds number by a
+    // sigma cd0/8 (1 - cutout^4) with the file's cd0. The correction for Reynolds number is a
     // factor between 1 and (Re at the tip/Re at 40 % radius)^0.2.
     let solidity = 4.0 * 0.0508 / (PI * 0.762);
     let least = solidity * 0.01114 / 8.0 * (1.0 - (1.0_f64 / 6.0).powi(4));
@@ -98,8 +90,8 @@ fn no_pitch_no_thrust_and_the_torque_of_profile_drag() {
     assert!((0.95..1.2).contains(&ratio), "{ratio}");
 }
 
-/// Momentum theory for the disc as a whole, T = 2 rho A (V + v) v, holds for the sum over annuli if
-/// the inflow is uniform. With constant chord and pitch it nearly is.
+/// If the inflow is uniform, momentum theory for the whole disc, T = 2 rho A (V + v) v, holds for
+/// the sum over annuli. With constant chord and pitch the inflow is nearly uniform.
 #[test]
 fn induced_velocity_in_hover_is_near_that_of_the_actuator_disc() {
     let block = computed(&[], &[(integer::MODELS__TIP_LOSS, 1)]);
@@ -112,12 +104,12 @@ fn induced_velocity_in_hover_is_near_that_of_the_actuator_disc() {
 #[test]
 fn coefficients_follow_their_definitions() {
     let block = computed(&[], &[]);
-    let out = |place| get(&block, place);
+    let out = |reference| get(&block, reference);
     let tip_speed = 960.0 * PI / 30.0 * 0.762;
     let force = out(real::AIR_DENSITY) * PI * 0.762 * 0.762 * tip_speed * tip_speed;
     let ct = out(real::THRUST) / force;
     let cp = out(real::POWER) / (force * tip_speed);
-    for (place, expected) in [
+    for (reference, expected) in [
         (real::THRUST_COEFFICIENT, ct),
         (real::POWER_COEFFICIENT, cp),
         (real::TORQUE_COEFFICIENT, cp),
@@ -125,8 +117,8 @@ fn coefficients_follow_their_definitions() {
         (real::POWER, out(real::TORQUE) * 960.0 * PI / 30.0),
         (real::INFLOW_RATIO, out(real::INDUCED_VELOCITY) / tip_speed),
     ] {
-        let name = place.variable().name;
-        assert!((out(place) / expected - 1.0).abs() < 1e-12, "{name}");
+        let name = reference.variable().name;
+        assert!((out(reference) / expected - 1.0).abs() < 1e-12, "{name}");
     }
 }
 
@@ -149,7 +141,7 @@ fn more_elements_change_the_third_digit_at_most() {
 }
 
 #[test]
-fn thrust_is_a_continuous_function_of_climb_outside_of_the_change_to_the_windmill() {
+fn thrust_is_continuous_in_climb_above_the_windmill_state() {
     // From fast climb to a descent at 1.5 times the induced velocity in hover.
     let at = |climb: f64| thrust(&[(real::VELOCITY_3, climb)]);
     let mut previous = at(10.0);
@@ -167,21 +159,16 @@ fn thrust_is_a_continuous_function_of_climb_outside_of_the_change_to_the_windmil
 #[test]
 fn the_rotor_file_replaces_the_geometry_and_its_planform_counts() {
     let mut block = default_block();
-    let set = |block: &mut RotorBlock, name: &str| {
-        block
-            .set_strings(&[string::GEOMETRY__FILE], &[name])
-            .unwrap();
-    };
     block.update().unwrap();
     let rectangular = get(&block, real::THRUST);
-    set(&mut block, "knight-hefner-4.toml");
+    set_string(&mut block, string::GEOMETRY__FILE, "knight-hefner-4.toml");
     block.update().unwrap();
     let rounded = get(&block, real::THRUST);
     assert!(
         rounded < rectangular && rounded > 0.97 * rectangular,
         "{rounded} {rectangular}"
     );
-    set(&mut block, "knight-hefner-3.toml");
+    set_string(&mut block, string::GEOMETRY__FILE, "knight-hefner-3.toml");
     block.update().unwrap();
     assert!(
         get(&block, real::THRUST) < 0.9 * rounded,
@@ -199,13 +186,16 @@ fn stall_spreads_with_pitch() {
         )
     };
     assert_eq!(stalled(8.0), (0.0, 0.0));
-    let (some, all) = (stalled(18.0), stalled(30.0));
-    assert!(some.1 > 0.0 && some.1 < 1.0 && some.0 < 1.0, "{some:?}");
-    assert!(all.1 > some.1, "{some:?} {all:?}");
+    let (partial, full) = (stalled(18.0), stalled(30.0));
+    assert!(
+        partial.1 > 0.0 && partial.1 < 1.0 && partial.0 < 1.0,
+        "{partial:?}"
+    );
+    assert!(full.1 > partial.1, "{partial:?} {full:?}");
 }
 
-/// The thrust of the stations adds up to the rotor's, and the lift of each is that of its angle of
-/// attack.
+/// The thrust of the stations adds up to the thrust of the rotor, and the lift coefficient of each
+/// agrees with its angle of attack.
 #[test]
 fn the_stations_along_the_blade_add_up_to_the_thrust() {
     let block = computed(&[], &[]);

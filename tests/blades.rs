@@ -1,4 +1,5 @@
-//! Flapping blades through the variables: the course of time, the stations, and what is refused.
+//! Flapping blades by way of the variables: their motion in time, the stations along a blade, and
+//! the combinations of models that are refused.
 
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
@@ -8,23 +9,21 @@ mod support;
 
 use helicopter_rotor::block::{
     RotorBlock,
-    variables::{IntegerRef, RealRef, boolean, integer, real},
+    variables::{IntegerRef, RealRef, integer, real},
 };
 use std::f64::consts::PI;
-use support::{choice, choose, default_block, get, set};
+use support::{choice, choose, default_block, enable_flapping, get, set, set_integer};
 
 /// A rotor with flapping blades in forward flight.
 fn flapping_block(inflow: &str) -> RotorBlock {
     let mut block = default_block();
     choose(&mut block, integer::MODELS__INFLOW, inflow);
-    block
-        .set_booleans(&[boolean::FLAPPING__ENABLED], &[1])
-        .unwrap();
+    enable_flapping(&mut block);
     set(&mut block, real::VELOCITY_1, 15.0);
     block
 }
 
-const ANSWER: [RealRef; 6] = [
+const OUTPUTS: [RealRef; 6] = [
     real::THRUST,
     real::HUB_MOMENT_1,
     real::CONING,
@@ -39,7 +38,7 @@ fn power_is_torque_times_speed_and_rotor_speed_is_rpm() {
     block.start().unwrap();
     for _ in 0..10 {
         block.step(0.0031).unwrap();
-        let out = |place: RealRef| get(&block, place);
+        let out = |reference: RealRef| get(&block, reference);
         let expected = out(real::TORQUE) * 960.0 * PI / 30.0;
         assert!((out(real::POWER) / expected - 1.0).abs() < 1e-12);
         assert!((out(real::HUB_MOMENT_3) + out(real::TORQUE)).abs() < 1e-12);
@@ -58,7 +57,7 @@ fn the_communication_step_does_not_change_the_motion_of_the_blades() {
         for step in steps {
             block.step(*step).unwrap();
         }
-        ANSWER.map(|place| get(&block, place))
+        OUTPUTS.map(|reference| get(&block, reference))
     };
     let once = after(&[0.1]);
     let mut odd = vec![0.0073; 13];
@@ -71,19 +70,19 @@ fn the_communication_step_does_not_change_the_motion_of_the_blades() {
     }
 }
 
-/// The order of the integrator shows with smooth sections: thin-airfoil lift.
+/// The order of the integrator can be seen with smooth section data only, here thin-airfoil lift.
 #[test]
 fn the_motion_of_the_blades_is_of_third_order_in_the_azimuth_step() {
     let lift = choice(integer::MODELS__LIFT, "twoPi");
     let after = |degrees: f64| {
         let mut block = flapping_block("pittPetersDynamic");
-        let places = [
+        let references = [
             integer::MODELS__LIFT,
             integer::INITIALIZATION,
             integer::MODELS__TIP_LOSS,
         ];
         let rest = choice(integer::INITIALIZATION, "rest");
-        block.set_integers(&places, &[lift, rest, 1]).unwrap();
+        block.set_integers(&references, &[lift, rest, 1]).unwrap();
         set(&mut block, real::VELOCITY_1, 5.0);
         set(
             &mut block,
@@ -91,7 +90,7 @@ fn the_motion_of_the_blades_is_of_third_order_in_the_azimuth_step() {
             degrees.to_radians(),
         );
         block.start().unwrap();
-        // 120 degrees.
+        // 120 deg of azimuth.
         block.step(120.0 / 360.0 / 16.0).unwrap();
         get(&block, real::CONING)
     };
@@ -106,9 +105,9 @@ fn the_motion_of_the_blades_is_of_third_order_in_the_azimuth_step() {
 
 #[test]
 fn flapping_with_models_that_cannot_flap_is_refused_with_the_remedy() {
-    let refused = |place: IntegerRef, value: i32| {
+    let refused = |reference: IntegerRef, value: i32| {
         let mut block = flapping_block("annulus");
-        block.set_integers(&[place], &[value]).unwrap();
+        set_integer(&mut block, reference, value);
         block.start().unwrap_err().to_string()
     };
     let disc = refused(
@@ -126,10 +125,10 @@ fn flapping_with_models_that_cannot_flap_is_refused_with_the_remedy() {
     assert!(closed.contains("set another inflow model"), "{closed}");
 }
 
-/// The stations show blade 1 where it is: on the advancing side it meets faster air than on the
-/// other.
+/// The stations are those of blade 1 at its azimuth. On the advancing side it meets faster air than
+/// on the retreating side.
 #[test]
-fn stations_show_blade_1_on_its_way() {
+fn the_stations_are_those_of_blade_1_at_its_azimuth() {
     let mut block = flapping_block("drees");
     let rpm = 960.0;
     block.start().unwrap();
@@ -147,7 +146,7 @@ fn stations_show_blade_1_on_its_way() {
     assert!((azimuth - 1.5 * PI).abs() < 1e-9, "{azimuth}");
 }
 
-/// A step of hours is refused at once. A shorter one then goes on from where the rotor was.
+/// A step of hours is refused at once. A shorter step then continues from the state before it.
 #[test]
 fn a_step_that_is_too_long_is_refused_at_once() {
     let mut block = flapping_block("pittPetersDynamic");
@@ -160,6 +159,6 @@ fn a_step_that_is_too_long_is_refused_at_once() {
     assert!(begin.elapsed().as_secs_f64() < 1.0);
     block.step(0.01).unwrap();
     other.step(0.01).unwrap();
-    let answer = |block: &RotorBlock| ANSWER.map(|place| get(block, place).to_bits());
-    assert_eq!(answer(&block), answer(&other));
+    let outputs = |block: &RotorBlock| OUTPUTS.map(|reference| get(block, reference).to_bits());
+    assert_eq!(outputs(&block), outputs(&other));
 }

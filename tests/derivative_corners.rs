@@ -1,5 +1,5 @@
-//! The exact derivatives of the block where the model has corners: random flights with exact zeros
-//! and other places of corners, in all models, against one-sided differences to both sides.
+//! The exact derivatives of the block at corners of the models, against one-sided differences to
+//! both sides: random flights with all models, in which many values lie exactly at a corner.
 
 mod support {
     pub mod block;
@@ -8,14 +8,14 @@ mod support {
 
 use helicopter_rotor::block::{
     RotorBlock,
-    variables::{RealRef, boolean, integer, real, string},
+    variables::{RealRef, integer, real, string},
 };
 use support::{
-    block::{choose, default_block, get, project, set},
+    block::{choose, default_block, enable_flapping, get, project, set, set_integer, set_string},
     exact::{exact_along, inputs_and_states, known_scale, outputs_and_rates, unknown_scale},
 };
 
-/// Marsaglia 2003, "Xorshift RNGs": the same flights at each run.
+/// Random numbers that are the same in each run (Marsaglia 2003, "Xorshift RNGs").
 struct Random(u64);
 
 impl Random {
@@ -42,10 +42,8 @@ impl Random {
 /// A block in a random flight, before its initialisation.
 fn random_block(random: &mut Random) -> RotorBlock {
     let mut block = default_block();
-    block
-        .set_integers(&[integer::NUMERICS__ELEMENTS], &[12])
-        .unwrap();
-    for place in [
+    set_integer(&mut block, integer::NUMERICS__ELEMENTS, 12);
+    for reference in [
         integer::MODELS__INFLOW,
         integer::MODELS__DESCENT,
         integer::MODELS__TIP_LOSS,
@@ -57,8 +55,8 @@ fn random_block(random: &mut Random) -> RotorBlock {
         integer::INITIALIZATION,
         integer::AIR__ATMOSPHERE,
     ] {
-        let choices = place.variable().choices;
-        choose(&mut block, place, choices[random.below(choices.len())]);
+        let choices = reference.variable().choices;
+        choose(&mut block, reference, choices[random.below(choices.len())]);
     }
     let is_closed_form = integer::MODELS__INFLOW.variable().choices[0] == "annulusClosedForm"
         && block.values().integers[integer::MODELS__INFLOW] == 1;
@@ -66,28 +64,27 @@ fn random_block(random: &mut Random) -> RotorBlock {
         choose(&mut block, integer::MODELS__GROUND_EFFECT, "none");
     }
     let (blades, order) = (1 + random.below(8) as i32, 1 + random.below(6) as i32);
-    let places = [
+    let references = [
         integer::GEOMETRY__NUMBER_OF_BLADES,
         integer::NUMERICS__INFLOW_ORDER,
     ];
-    block.set_integers(&places, &[blades, order]).unwrap();
+    block.set_integers(&references, &[blades, order]).unwrap();
     if !is_closed_form && random.one_in(3) {
-        let enabled = boolean::FLAPPING__ENABLED;
-        block.set_booleans(&[enabled], &[1]).unwrap();
+        enable_flapping(&mut block);
         choose(&mut block, integer::MODELS__BLADES, "automatic");
         set(&mut block, real::FLAPPING__HINGE_OFFSET, 0.05);
         set(&mut block, real::FLAPPING__DELTA3, 0.2);
         set(&mut block, real::FLAPPING__HINGE_SPRING, 5.0);
     } else if blades == 1 {
-        // One blade and its azimuth average are different rotors: automatic jumps between them.
+        // `automatic` changes from the azimuth average to the blade itself. For a rotor with one
+        // blade that is a jump, which has no derivative.
         choose(&mut block, integer::MODELS__BLADES, "individual");
     }
     match random.below(4) {
         0 => {
             let file = project().join("tests/data/smooth.txt");
             let file = file.to_str().unwrap();
-            let airfoil = string::AIRFOIL__FILE;
-            block.set_strings(&[airfoil], &[file]).unwrap();
+            set_string(&mut block, string::AIRFOIL__FILE, file);
             choose(&mut block, integer::MODELS__LIFT, "slopesByReynolds");
         }
         1 => choose(&mut block, integer::MODELS__LIFT, "twoPi"),
@@ -100,53 +97,54 @@ fn random_block(random: &mut Random) -> RotorBlock {
 fn random_flight(block: &mut RotorBlock, random: &mut Random) {
     let is_unloaded = random.one_in(4);
     if is_unloaded {
-        // A knot of the section's tables all along the blade, exactly: without inflow before the
-        // first step.
+        // Before the first step there is no inflow, so that the whole blade lies exactly at a knot
+        // of the section's tables.
         set(block, real::COLLECTIVE, 0.0);
         choose(block, integer::INITIALIZATION, "rest");
         if block.values().integers[integer::MODELS__TIP_LOSS]
             == support::block::choice(integer::MODELS__TIP_LOSS, "prandtlThrust")
         {
-            // Its lift ends at a root of the thrust, whose slope is infinite where there is none.
+            // The end of the lift depends on the square root of the thrust, whose slope is infinite
+            // at thrust 0.
             choose(block, integer::MODELS__TIP_LOSS, "prandtl");
         }
     } else if random.one_in(2) {
         set(block, real::COLLECTIVE, random.between(-0.1, 0.3));
     }
     set(block, real::RPM, random.between(300.0, 1200.0));
-    for place in [real::VELOCITY_1, real::VELOCITY_2, real::VELOCITY_3] {
+    for reference in [real::VELOCITY_1, real::VELOCITY_2, real::VELOCITY_3] {
         if random.one_in(3) {
-            set(block, place, random.between(-8.0, 12.0));
+            set(block, reference, random.between(-8.0, 12.0));
         }
     }
-    for (place, size) in [
+    for (reference, size) in [
         (real::TILT, 0.3),
         (real::CYCLIC_LATERAL, 0.05),
         (real::ANGULAR_VELOCITY_2, 0.5),
     ] {
         if !is_unloaded && random.one_in(3) {
-            set(block, place, random.between(-size, size));
+            set(block, reference, random.between(-size, size));
         }
     }
     let radius = get(block, real::GEOMETRY__RADIUS);
-    // Where the effect of the ground ends, begins to fade, and is held.
+    // The heights at which ground effect ends, begins to fade, and is held constant.
     let heights = [3.0, 2.0, 0.5, 0.0, random.between(0.5, 3.0)];
     let height = heights[random.below(heights.len())] * radius;
     set(block, real::HEIGHT_ABOVE_GROUND, height);
     set(block, real::DRIVE_TORQUE, random.between(-3.0, 3.0));
 }
 
-/// What has a one-sided derivative everywhere but at thrust 0.
+/// The outputs and rates that have a one-sided derivative everywhere except at thrust 0.
 fn unknowns() -> Vec<RealRef> {
     let steps = [real::STALLED_RADIUS, real::STALLED_FRACTION];
     let mut all = outputs_and_rates();
-    all.retain(|place| !steps.contains(place) && *place != real::FIGURE_OF_MERIT);
+    all.retain(|reference| !steps.contains(reference) && *reference != real::FIGURE_OF_MERIT);
     all
 }
 
-/// The largest error of the exact derivatives along one known to one side, of which unknown:
-/// against the best of differences with several steps, each of the first and second order, as a
-/// part of its change.
+/// The largest error of the exact derivatives along one known to one side, and a text that names
+/// the unknown. The error of each is that against the best of several differences, of first and
+/// second order and with several steps, as a fraction of the change of the unknown.
 fn worst(block: &mut RotorBlock, known: RealRef, side: f64) -> (f64, String) {
     let unknowns = unknowns();
     let exact = exact_along(block, &unknowns, known, side);
@@ -160,13 +158,13 @@ fn worst(block: &mut RotorBlock, known: RealRef, side: f64) -> (f64, String) {
             block.update().unwrap();
             unknowns.iter().map(|u| get(block, *u)).collect()
         };
-        let (one, two, none) = (at(1.0), at(2.0), at(0.0));
+        let (one, two, unmoved) = (at(1.0), at(2.0), at(0.0));
         for (j, unknown) in unknowns.iter().enumerate() {
-            let change = (exact[j].abs() * scale).max(0.1 * none[j].abs());
+            let change = (exact[j].abs() * scale).max(0.1 * unmoved[j].abs());
             let change = change.max(100.0 * unknown_scale(*unknown).min(0.1));
             for difference in [
-                (one[j] - none[j]) / step,
-                (4.0 * one[j] - 3.0 * none[j] - two[j]) / (2.0 * step),
+                (one[j] - unmoved[j]) / step,
+                (4.0 * one[j] - 3.0 * unmoved[j] - two[j]) / (2.0 * step),
             ] {
                 let error = (exact[j] - difference).abs() * scale / change;
                 if error < errors[j] {
@@ -223,10 +221,10 @@ fn to_both_sides(block: &mut RotorBlock, known: RealRef) {
     }
 }
 
-/// Where a formula has a corner that no random number meets.
+/// Corners of formulae at values that random numbers do not hit.
 #[test]
 fn derivatives_at_known_corners() {
-    // The tropopause at 11 km of geopotential altitude, by the doubles around it.
+    // The tropopause lies at 11 km of geopotential altitude. Find a double that is mapped to it.
     const EARTH_RADIUS: f64 = 6_356_766.0;
     let geopotential = |altitude: f64| altitude * EARTH_RADIUS / (altitude + EARTH_RADIUS);
     let mut altitude = 11_000.0 * EARTH_RADIUS / (EARTH_RADIUS - 11_000.0) - 1e-9;
@@ -239,8 +237,8 @@ fn derivatives_at_known_corners() {
     block.start().unwrap();
     to_both_sides(&mut block, real::ALTITUDE);
 
-    // No lift in climb and descent: the closed form is mirrored there, and its slope is that at the
-    // Mach number.
+    // At zero lift in climb and descent the closed form is mirrored, and its lift slope is that at
+    // the Mach number.
     for climb in [0.0, 2.0, -2.0] {
         let mut block = default_block();
         choose(&mut block, integer::MODELS__INFLOW, "annulusClosedForm");
@@ -252,8 +250,8 @@ fn derivatives_at_known_corners() {
         to_both_sides(&mut block, real::COLLECTIVE);
     }
 
-    // A stopped rotor in wind along the disc: half of it meets the air from behind, at 180 deg
-    // exactly.
+    // A stopped rotor in wind along the disc: the air meets half of it from behind, at exactly
+    // 180 deg.
     let mut block = default_block();
     choose(&mut block, integer::MODELS__INFLOW, "uniform");
     set(&mut block, real::COLLECTIVE, 0.0);
@@ -263,7 +261,7 @@ fn derivatives_at_known_corners() {
     to_both_sides(&mut block, real::VELOCITY_3);
     to_both_sides(&mut block, real::COLLECTIVE);
 
-    // A section in still air meets a flow as soon as the rotor begins to turn.
+    // A section in still air has flow as soon as the rotor begins to turn.
     let mut block = default_block();
     set(&mut block, real::RPM, 0.0);
     block.start().unwrap();
@@ -277,12 +275,11 @@ fn derivatives_at_known_corners() {
     );
 }
 
-/// Models without inflow states have none that could break the symmetry of the disc.
+/// For a model without inflow states, values of these states do not break the symmetry of the disc.
 #[test]
-fn states_that_a_model_does_not_have_have_no_effect() {
+fn states_that_the_model_does_not_use_have_no_effect() {
     let mut block = default_block();
-    let one = integer::GEOMETRY__NUMBER_OF_BLADES;
-    block.set_integers(&[one], &[1]).unwrap();
+    set_integer(&mut block, integer::GEOMETRY__NUMBER_OF_BLADES, 1);
     block.start().unwrap();
     block.begin_integration().unwrap();
     let outputs = |block: &RotorBlock| {
@@ -292,17 +289,17 @@ fn states_that_a_model_does_not_have_have_no_effect() {
             .collect::<Vec<_>>()
     };
     let before = outputs(&block);
-    for place in RealRef::all().filter(|r| r.variable().name.starts_with("state.inflow")) {
-        assert!(place.is_state());
-        set(&mut block, place, 1.0);
+    for reference in RealRef::all().filter(|r| r.variable().name.starts_with("state.inflow")) {
+        assert!(reference.is_state());
+        set(&mut block, reference, 1.0);
     }
     block.update().unwrap();
     assert_eq!(outputs(&block), before);
 }
 
-/// A block that takes over another's state before its initialisation takes over its rotor too.
+/// A block that restores the snapshot of another before its initialisation also gets its rotor.
 #[test]
-fn derivatives_are_those_of_the_rotor_whose_state_was_taken_over() {
+fn derivatives_are_those_of_the_restored_rotor() {
     let configured = |radius: f64| {
         let mut block = default_block();
         set(&mut block, real::GEOMETRY__RADIUS, radius);

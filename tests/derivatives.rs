@@ -1,4 +1,4 @@
-//! The exact derivatives of the block against differences of its values.
+//! The exact derivatives of the block, compared with differences of its values.
 
 mod support {
     pub mod block;
@@ -7,19 +7,19 @@ mod support {
 
 use helicopter_rotor::block::{
     DerivativeError, RotorBlock,
-    variables::{RealRef, boolean, integer, real, string},
+    variables::{RealRef, integer, real, string},
 };
 use support::{
-    block::{choose, default_block, project, set},
+    block::{choose, default_block, enable_flapping, project, set, set_string},
     exact::{exact, inputs_and_states, known_scale, outputs_and_rates, unknown_scale},
 };
 
 /// Ways to hold the blades.
 const BLADES: [&str; 3] = ["automatic", "disc", "flapping"];
 
-/// How a derivative is differenced: with values on both sides, or from the side to which the exact
-/// one leads, where the model has corners (axial flow: speeds along the disc are magnitudes, and
-/// descent begins).
+/// The kind of difference. `Central` uses values on both sides. `OneSided` uses values on the side
+/// to which the exact derivative points, in flights at a corner of the model: in axial flow the
+/// speed along the disc is a magnitude, and descent begins.
 #[derive(Clone, Copy, PartialEq)]
 enum Difference {
     Central,
@@ -30,9 +30,9 @@ struct Flight {
     name: &'static str,
     velocity: [f64; 3],
     difference: Difference,
-    /// Of the differences, as a part of a known's scale.
+    /// Step of the differences, as a fraction of the scale of a known.
     step: f64,
-    /// On what differences and exact derivatives differ.
+    /// Largest accepted error.
     bound: f64,
     settings: fn(&mut RotorBlock),
 }
@@ -70,8 +70,9 @@ const FLIGHTS: [Flight; 6] = [
         velocity: [3.0, 1.0, -5.0],
         difference: Difference::Central,
         step: 3e-4,
-        // Differences have errors of their own there: the curve's curvature jumps from piece to
-        // piece, and for dynamic inflow the mass flow's slope is a difference, with its rounding.
+        // Here the differences have errors of their own: the curvature of the curve jumps from
+        // piece to piece, and for dynamic inflow the slope of the mass flow is itself a difference,
+        // with its rounding.
         bound: 1e-6,
         settings: |block| choose(block, integer::MODELS__DESCENT, "johnson"),
     },
@@ -97,14 +98,14 @@ const FLIGHTS: [Flight; 6] = [
         settings: |block| {
             choose(block, integer::GEOMETRY__ROTATION, "clockwise");
             choose(block, integer::MODELS__TIP_LOSS, "prandtlTipAndRoot");
-            for (place, value) in [
+            for (reference, value) in [
                 (real::CYCLIC_LATERAL, 0.03),
                 (real::CYCLIC_LONGITUDINAL, 0.02),
                 (real::TILT, 0.1),
                 (real::ANGULAR_VELOCITY_1, 0.2),
                 (real::ANGULAR_VELOCITY_2, 0.2),
             ] {
-                set(block, place, value);
+                set(block, reference, value);
             }
         },
     },
@@ -114,14 +115,12 @@ fn near_the_ground() -> &'static Flight {
     &FLIGHTS[4]
 }
 
-/// A block in a flight with section data without corners, before its initialisation.
+/// A block in a flight before its initialisation. Its section data have no corners.
 fn smooth_block(inflow: &str, blades: &str, flight: &Flight) -> RotorBlock {
     let mut block = default_block();
     let file = project().join("tests/data/smooth.txt");
     let file = file.to_str().unwrap();
-    block
-        .set_strings(&[string::AIRFOIL__FILE], &[file])
-        .unwrap();
+    set_string(&mut block, string::AIRFOIL__FILE, file);
     choose(&mut block, integer::MODELS__LIFT, "slopesByReynolds");
     into_flight(&mut block, inflow, blades, flight);
     block
@@ -130,22 +129,21 @@ fn smooth_block(inflow: &str, blades: &str, flight: &Flight) -> RotorBlock {
 fn into_flight(block: &mut RotorBlock, inflow: &str, blades: &str, flight: &Flight) {
     choose(block, integer::MODELS__INFLOW, inflow);
     if blades == "flapping" {
-        let enabled = boolean::FLAPPING__ENABLED;
-        block.set_booleans(&[enabled], &[1]).unwrap();
+        enable_flapping(block);
         set(block, real::FLAPPING__HINGE_OFFSET, 0.05);
         set(block, real::FLAPPING__DELTA3, 0.2);
     } else {
         choose(block, integer::MODELS__BLADES, blades);
     }
-    let places = [real::VELOCITY_1, real::VELOCITY_2, real::VELOCITY_3];
-    for (place, value) in places.into_iter().zip(flight.velocity) {
-        set(block, place, value);
+    let references = [real::VELOCITY_1, real::VELOCITY_2, real::VELOCITY_3];
+    for (reference, value) in references.into_iter().zip(flight.velocity) {
+        set(block, reference, value);
     }
     set(block, real::COLLECTIVE, 0.15);
     (flight.settings)(block);
 }
 
-/// In flight, a few milliseconds after the start, with states that the importer may set.
+/// The block a few milliseconds after the start, with states that the importer may set.
 fn under_way(mut block: RotorBlock) -> RotorBlock {
     block.start().unwrap();
     block.step(0.003).unwrap();
@@ -153,7 +151,8 @@ fn under_way(mut block: RotorBlock) -> RotorBlock {
     block
 }
 
-/// The same by differences of the fourth order, with steps of `part` of the known's scale.
+/// The derivatives of unknowns by one known, as differences of fourth order with steps of `part` of
+/// the known's scale.
 fn differences(
     block: &mut RotorBlock,
     unknowns: &[RealRef],
@@ -187,8 +186,9 @@ fn differences(
     sums
 }
 
-/// The largest error of an exact derivative as a part of the unknown's largest derivative, each
-/// known by its scale, and of which it is.
+/// The largest error of an exact derivative, and a text that names it. Each derivative is
+/// multiplied by the scale of its known, and the error is a fraction of the largest derivative of
+/// the unknown.
 fn worst(
     block: &mut RotorBlock,
     knowns: &[RealRef],
@@ -263,8 +263,8 @@ fn derivatives_by_tunable_parameters_are_those_of_differences() {
     }
 }
 
-/// In the tables of the default airfoil corners are everywhere, and small differences seldom meet
-/// one.
+/// The tables of the default airfoil have corners everywhere, but few of them lie within a small
+/// difference.
 #[test]
 fn derivatives_with_a_table_of_corners_are_those_of_small_differences() {
     for inflow in ["annulus", "uniform", "finiteBlades", "petersHe"] {
@@ -279,7 +279,7 @@ fn derivatives_with_a_table_of_corners_are_those_of_small_differences() {
     }
 }
 
-/// Before the simulation runs, the states are those that the start finds, and move with the inputs.
+/// Before initialisation the states are those at the start, which depend on the inputs.
 #[test]
 fn derivatives_at_the_start_are_those_of_differences() {
     let knowns = [
@@ -305,15 +305,15 @@ fn derivatives_at_the_start_are_those_of_differences() {
             block.update().unwrap();
             let (error, which) = worst(&mut block, &knowns, flight.difference, 3e-4);
             let case = format!("{inflow}, {blades}, {}", flight.name);
-            // The start is found to 1e-10 of the tip speed, which the differences divide by their
-            // steps.
+            // The start has an error of 1e-10 of the tip speed, which the differences divide by
+            // their small steps.
             assert!(error < 5e-5, "{case}: {error:.1e}, {which}");
         }
     }
 }
 
 #[test]
-fn outputs_change_in_time_as_they_do_from_step_to_step() {
+fn rates_of_outputs_are_their_changes_in_a_short_step() {
     let mut block = smooth_block("pittPetersDynamic", "flapping", near_the_ground());
     choose(&mut block, integer::INITIALIZATION, "rest");
     set(&mut block, real::NUMERICS__AZIMUTH_STEP, 0.001);
@@ -334,7 +334,7 @@ fn outputs_change_in_time_as_they_do_from_step_to_step() {
     }
 }
 
-/// A direction is a sum: the derivative along it is that of its parts.
+/// The derivative along a direction is the sum over the knowns in it.
 #[test]
 fn derivatives_along_several_knowns_add_up() {
     let mut block = under_way(smooth_block("annulus", "automatic", near_the_ground()));
@@ -353,7 +353,7 @@ fn derivatives_along_several_knowns_add_up() {
 }
 
 #[test]
-fn asking_changes_nothing() {
+fn computing_derivatives_leaves_the_simulation_unchanged() {
     let run = |asks: bool| {
         let mut block = smooth_block("petersHe", "flapping", near_the_ground());
         block.start().unwrap();
@@ -369,7 +369,7 @@ fn asking_changes_nothing() {
 }
 
 #[test]
-fn what_has_no_derivative_is_refused_by_name() {
+fn variables_without_derivatives_are_refused_by_name() {
     let mut block = under_way(smooth_block("annulus", "automatic", near_the_ground()));
     let mut ask = |unknown: RealRef, known: RealRef| {
         block

@@ -1,5 +1,5 @@
-//! Vertical descent through the vortex ring and the turbulent wake to the windmill.
-//! tests/validation.rs holds it against measurements.
+//! Vertical descent through the vortex ring state and the turbulent wake state to the windmill
+//! brake state. crates/program/tests/validation.rs compares it with measurements.
 
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
@@ -11,7 +11,7 @@ use helicopter_rotor::block::{
     RotorBlock,
     variables::{FlowState, RealRef, integer, real},
 };
-use support::{choose, default_block, set};
+use support::{choose, default_block, set, set_integer};
 
 fn block(inflow: &str, descent: &str) -> RotorBlock {
     let mut block = default_block();
@@ -20,21 +20,21 @@ fn block(inflow: &str, descent: &str) -> RotorBlock {
         (integer::MODELS__DESCENT, descent),
         (integer::MODELS__BLADES, "disc"),
     ];
-    for (place, name) in pairs {
-        choose(&mut block, place, name);
+    for (reference, name) in pairs {
+        choose(&mut block, reference, name);
     }
     block
 }
 
-/// An output in a vertical descent, m/s.
-fn descending(block: &mut RotorBlock, speed: f64, place: RealRef) -> f64 {
+/// An output at a rate of descent, m/s.
+fn descending(block: &mut RotorBlock, speed: f64, reference: RealRef) -> f64 {
     set(block, real::VELOCITY_3, -speed);
     block.update().unwrap();
-    block.values().reals[place]
+    block.values().reals[reference]
 }
 
-/// In climb and hover nothing depends on the law of descent (but where single annuli pull down:
-/// their climb is a descent).
+/// Hover and slow climb do not depend on the law of descent. In a faster climb single annuli have
+/// negative thrust, which for them is a descent.
 #[test]
 fn climb_and_hover_are_momentum_theory_with_every_law() {
     for (inflow, climb) in [
@@ -54,11 +54,12 @@ fn climb_and_hover_are_momentum_theory_with_every_law() {
     }
 }
 
-/// Through the whole of descent at a collective, in steps of a thousandth of v_h.
+/// All rates of descent at one collective, in steps of a thousandth of v_h.
 #[test]
 fn thrust_is_continuous_from_hover_to_the_windmill() {
     const STEP: f64 = 4.3e-3;
-    // Low enough that no section stalls with the last two: stall folds the blades' own thrust.
+    // Low enough that no section stalls in the last case. With stall there can be several thrusts
+    // at one rate of descent.
     const HIGH: f64 = 0.14;
     const LOW: f64 = 0.06;
     for (inflow, descent, collective) in [
@@ -81,7 +82,7 @@ fn thrust_is_continuous_from_hover_to_the_windmill() {
                 largest = largest.max((next - previous).abs() / hover);
                 previous = next;
             }
-            // The step's share of the fall or rise; momentum theory jumps by tens of per cent.
+            // A share of the fall or rise. Momentum theory jumps by tens of per cent.
             assert!(largest < 0.005, "{inflow} {descent} {edgewise}: {largest}");
         }
     }
@@ -100,7 +101,7 @@ fn momentum_theory_alone_jumps_to_the_windmill() {
     assert!(largest > 0.1, "{largest}");
 }
 
-/// Flow along the disc carries the wake away: at three times v_h the laws agree.
+/// Flow along the disc carries the wake away. At three times v_h the laws agree.
 #[test]
 fn the_vortex_ring_fades_with_flow_along_the_disc() {
     for inflow in ["uniform", "annulus"] {
@@ -124,7 +125,7 @@ fn the_vortex_ring_fades_with_flow_along_the_disc() {
 }
 
 #[test]
-fn the_state_of_the_flow_goes_through_its_names_in_descent() {
+fn the_flow_state_passes_through_all_its_values_in_descent() {
     let mut block = block("uniform", "measured");
     let mut seen = Vec::new();
     for i in 0..400 {
@@ -141,7 +142,7 @@ fn the_state_of_the_flow_goes_through_its_names_in_descent() {
         FlowState::WindmillBrake,
     ];
     assert_eq!(seen, expected);
-    // Forward, level or in autorotation.
+    // Forward flight, level and in autorotation.
     set(&mut block, real::VELOCITY_1, 20.0);
     for (speed, expected) in [(0.0, FlowState::Normal), (8.0, FlowState::WindmillBrake)] {
         descending(&mut block, speed, real::THRUST);
@@ -150,39 +151,35 @@ fn the_state_of_the_flow_goes_through_its_names_in_descent() {
     }
 }
 
-/// In time, from hover to the windmill and back in a minute: no step of 20 ms changes the thrust by
-/// more than a smooth way through would, and the thrust does not go up and down.
+/// From hover to the windmill brake state and back in a minute: in no step of 20 ms does the thrust
+/// jump, and it rises and falls only a few times.
 #[test]
-fn nothing_chatters_on_the_way_through_the_vortex_ring() {
-    // Per step, and turns of the whole way there and back; the many states of Peters & He swing as
-    // they enter the vortex ring.
-    for (inflow, change, most_turns) in [
+fn thrust_does_not_chatter_in_the_vortex_ring() {
+    // Largest relative change per step, and maximum number of turns from rise to fall or back. The
+    // many states of Peters & He oscillate when they enter the vortex ring.
+    for (inflow, change, max_turns) in [
         ("annulus", 0.005, 5),
         ("pittPetersDynamic", 0.005, 13),
         ("petersHe", 0.05, 20),
     ] {
         let mut block = block(inflow, "measured");
-        let elements = integer::NUMERICS__ELEMENTS;
-        block.set_integers(&[elements], &[12]).unwrap();
+        set_integer(&mut block, integer::NUMERICS__ELEMENTS, 12);
         block.start().unwrap();
-        let mut on_the_way = Vec::new();
+        let mut thrusts = Vec::new();
         for i in 0..=3000 {
             let part = 1.0 - (f64::from(i) / 1500.0 - 1.0).abs();
             set(&mut block, real::VELOCITY_3, -14.0 * part);
             block.step(0.02).unwrap();
-            on_the_way.push(block.values().reals[real::THRUST]);
+            thrusts.push(block.values().reals[real::THRUST]);
         }
-        let hover = on_the_way[0];
-        let steps = on_the_way.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+        let hover = thrusts[0];
+        let steps = thrusts.windows(2).map(|pair| (pair[1] - pair[0]).abs());
         let largest = steps.fold(0.0, f64::max) / hover;
         assert!(largest < change, "{inflow}: {largest}");
-        let slopes: Vec<f64> = on_the_way
-            .windows(2)
-            .map(|pair| pair[1] - pair[0])
-            .collect();
+        let slopes: Vec<f64> = thrusts.windows(2).map(|pair| pair[1] - pair[0]).collect();
         let counted = slopes.iter().filter(|s| s.abs() > 1e-6 * hover);
         let signs: Vec<bool> = counted.map(|s| *s > 0.0).collect();
         let turns = signs.windows(2).filter(|pair| pair[0] != pair[1]).count();
-        assert!(turns <= most_turns, "{inflow}: {turns} turns");
+        assert!(turns <= max_turns, "{inflow}: {turns} turns");
     }
 }

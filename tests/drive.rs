@@ -8,18 +8,18 @@ mod support;
 
 use helicopter_rotor::block::{
     RotorBlock,
-    variables::{IntegerRef, RealRef, boolean, integer, real, string},
+    variables::{IntegerRef, RealRef, integer, real, string},
 };
 use std::f64::consts::PI;
-use support::{choose, default_block, get, set};
+use support::{choose, default_block, enable_flapping, get, set, set_integer, set_string};
 
 fn block(choices: &[(IntegerRef, &str)], values: &[(RealRef, f64)]) -> RotorBlock {
     let mut block = default_block();
-    for (place, name) in choices {
-        choose(&mut block, *place, name);
+    for (reference, name) in choices {
+        choose(&mut block, *reference, name);
     }
-    for (place, value) in values {
-        set(&mut block, *place, *value);
+    for (reference, value) in values {
+        set(&mut block, *reference, *value);
     }
     block
 }
@@ -27,7 +27,6 @@ fn block(choices: &[(IntegerRef, &str)], values: &[(RealRef, f64)]) -> RotorBloc
 const TORQUE: (IntegerRef, &str) = (integer::DRIVE__MODE, "torque");
 const SPEED: f64 = 960.0 * PI / 30.0;
 
-/// The torque that the rotor absorbs at its speed keeps it there.
 #[test]
 fn the_torque_that_the_rotor_absorbs_keeps_its_speed() {
     for inflow in ["annulus", "drees", "pittPetersDynamic"] {
@@ -49,8 +48,8 @@ fn the_torque_that_the_rotor_absorbs_keeps_its_speed() {
     }
 }
 
-/// J dOmega/dt = torque in next to no air: the speed grows linearly, the azimuth by half its
-/// square, and the hub feels the torque that drives.
+/// J dOmega/dt = torque in air of almost no density: the speed grows linearly and the azimuth
+/// quadratically with time. The reaction of the driving torque acts on the hub.
 #[test]
 fn torque_accelerates_the_inertia() {
     let mut rotor = block(
@@ -76,23 +75,22 @@ fn torque_accelerates_the_inertia() {
     assert!(get(&rotor, real::TORQUE).abs() < 1e-3);
 }
 
-/// The importer may cut time as it likes, also while the rotor runs down and its grid grows.
+/// Any communication step gives the same answer, even while the rotor slows down and the cells of
+/// its grid grow.
 #[test]
-fn the_communication_step_does_not_change_the_running_down() {
+fn the_communication_step_does_not_change_how_the_rotor_slows_down() {
     let after = |steps: &[f64]| {
         let mut rotor = block(
             &[TORQUE, (integer::MODELS__INFLOW, "pittPetersDynamic")],
             &[(real::DRIVE__INERTIA, 0.1), (real::VELOCITY_1, 5.0)],
         );
-        rotor
-            .set_booleans(&[boolean::FLAPPING__ENABLED], &[1])
-            .unwrap();
+        enable_flapping(&mut rotor);
         rotor.start().unwrap();
         steps.iter().for_each(|step| rotor.step(*step).unwrap());
-        [real::ROTOR_SPEED, real::THRUST, real::CONING].map(|place| get(&rotor, place))
+        [real::ROTOR_SPEED, real::THRUST, real::CONING].map(|reference| get(&rotor, reference))
     };
     let once = after(&[0.5]);
-    assert!(once[0] < 800.0, "it runs down: {once:?}");
+    assert!(once[0] < 800.0, "it slows down: {once:?}");
     let mut odd = vec![0.0073; 68];
     odd.push(0.5 - 68.0 * 0.0073);
     for steps in [vec![0.001; 500], odd] {
@@ -103,7 +101,8 @@ fn the_communication_step_does_not_change_the_running_down() {
     }
 }
 
-/// Fast enough a descent turns the rotor without an engine; at rest in still air it stays at rest.
+/// In a fast descent the air turns a rotor without an engine. In still air a stopped rotor stays
+/// stopped.
 #[test]
 fn wind_from_below_turns_a_rotor_without_an_engine() {
     let run = |descent: f64, rpm: f64| {
@@ -127,17 +126,17 @@ fn wind_from_below_turns_a_rotor_without_an_engine() {
     assert!(settled > 300.0, "{settled}");
     assert!(
         (run(9.0, 1200.0) / settled - 1.0).abs() < 1e-3,
-        "from above as well"
+        "from a higher speed, too"
     );
 }
 
-/// The PCA-2 autogiro (Wheatley 1934, NACA Report 487, fig. 7) without an engine, at the measured
-/// speed along the disc and with the measured thrust, which the angle of the shaft is for: the
-/// speed at which the rotor settles is the measured one within 8 % to mu = 0.4.
+/// The PCA-2 autogiro (Wheatley 1934, NACA Report 487, fig. 7) at the measured speed along the
+/// disc. The shaft angle is chosen for the measured thrust. Up to mu = 0.4 the rotor settles within
+/// 8 % of the measured speed.
 ///
-/// What is left is thrust: rotor speed goes with sqrt(T/CT), and at mu = 0.52 and 0.68 the CT of
-/// the model's rotor without torque is too low at the measured mu. The cause is drag that the
-/// assumed section does not have; tests/autogiro.rs shows it.
+/// Above, the thrust coefficient explains the difference. Rotor speed is proportional to
+/// sqrt(T/CT), and at mu = 0.52 and 0.68 the CT of the autorotating model is too low at the
+/// measured mu. The cause is drag that the assumed section does not have, see tests/autogiro.rs.
 #[test]
 fn an_autogiro_without_an_engine_turns_as_fast_as_measured() {
     let rotor = |rpm: f64, edgewise: f64, alpha: f64| {
@@ -158,18 +157,13 @@ fn an_autogiro_without_an_engine_turns_as_fast_as_measured() {
                 (real::VELOCITY_3, -edgewise * alpha.tan()),
             ],
         );
-        rotor
-            .set_strings(&[string::GEOMETRY__FILE], &["pca-2.toml"])
-            .unwrap();
-        let elements = integer::NUMERICS__ELEMENTS;
-        rotor.set_integers(&[elements], &[16]).unwrap();
-        rotor
-            .set_booleans(&[boolean::FLAPPING__ENABLED], &[1])
-            .unwrap();
+        set_string(&mut rotor, string::GEOMETRY__FILE, "pca-2.toml");
+        set_integer(&mut rotor, integer::NUMERICS__ELEMENTS, 16);
+        enable_flapping(&mut rotor);
         rotor.start().unwrap();
         rotor
     };
-    // mu, measured rev/min and CT, and how near the speed must come.
+    // mu, measured rev/min and CT, and the largest accepted error of the speed.
     for (mu, rpm, thrust_coefficient, within) in [
         (0.113, 141.6, 0.00752, 0.08),
         (0.194, 141.1, 0.00685, 0.08),
@@ -180,7 +174,7 @@ fn an_autogiro_without_an_engine_turns_as_fast_as_measured() {
     ] {
         let tip_speed = rpm * PI / 30.0 * 6.858;
         let wanted = thrust_coefficient * 1.0823 * PI * (6.858 * tip_speed).powi(2);
-        // Mean thrust over half a second of a rotor that has had 15 s to settle.
+        // Speed after 15 s, and the mean thrust over the next 0.4 s.
         let settled = |alpha: f64| {
             let mut rotor = rotor(rpm, mu * tip_speed, alpha);
             rotor.step(15.0).unwrap();
@@ -216,8 +210,8 @@ fn an_autogiro_without_an_engine_turns_as_fast_as_measured() {
     }
 }
 
-/// Cheeseman & Bennett: at the same power the thrust grows by 1/(1 - (R/(4 z))^2). The ideal rotor
-/// (uniform inflow, no drag) shows it as it stands.
+/// Cheeseman & Bennett: at the same power the ground increases the thrust by the factor
+/// 1/(1 - (R/(4 z))^2). An ideal rotor (uniform inflow, no drag) has exactly this factor.
 #[test]
 fn thrust_near_the_ground_at_the_same_power() {
     for (model, inflow) in [
@@ -233,8 +227,7 @@ fn thrust_near_the_ground_at_the_same_power() {
             ],
             &[],
         );
-        // Power that the thrust gives to the air it passes, T v, of which the ground leaves its
-        // part.
+        // Thrust, and the induced power T v, with the induced velocity that the ground reduces.
         let mut ideal = |height: f64, collective: f64| {
             set(&mut rotor, real::HEIGHT_ABOVE_GROUND, height * 0.762);
             set(&mut rotor, real::COLLECTIVE, collective);
@@ -267,8 +260,8 @@ fn thrust_near_the_ground_at_the_same_power() {
     }
 }
 
-/// Every inflow model gains thrust near the ground, without a jump in height, and hardly in fast
-/// flight.
+/// With every inflow model the thrust grows near the ground, continuously with height, and hardly
+/// at all in fast flight.
 #[test]
 fn every_inflow_model_feels_the_ground() {
     for inflow in integer::MODELS__INFLOW.variable().choices {

@@ -1,5 +1,5 @@
-//! Pitt & Peters' inflow, with loads averaged over one revolution: where its three states stand
-//! still, how they get there, and that the answer does not depend on how the importer cuts time.
+//! The inflow of Pitt & Peters with its three states, averaged over one revolution: its steady
+//! state, how it settles there, and that the answer does not depend on the communication step.
 
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
@@ -11,7 +11,7 @@ use helicopter_rotor::block::{
     BlockError, RotorBlock,
     variables::{integer, real},
 };
-use support::{choice, default_block, get, set};
+use support::{choice, default_block, get, set, set_integer};
 
 const DISC: i32 = 2;
 const STEADY: i32 = 1;
@@ -19,14 +19,14 @@ const REST: i32 = 2;
 
 fn block(model: &str, initialization: i32) -> RotorBlock {
     let mut block = default_block();
-    let places = [
+    let references = [
         integer::MODELS__INFLOW,
         integer::MODELS__BLADES,
         integer::INITIALIZATION,
     ];
     block
         .set_integers(
-            &places,
+            &references,
             &[choice(integer::MODELS__INFLOW, model), DISC, initialization],
         )
         .unwrap();
@@ -34,7 +34,7 @@ fn block(model: &str, initialization: i32) -> RotorBlock {
 }
 
 #[test]
-fn a_steady_start_stays_where_it_is() {
+fn a_steady_start_stays_steady() {
     for (speed, climb) in [(0.0, 0.0), (0.0, 3.0), (15.0, 0.0), (25.0, -1.0)] {
         let mut block = block("pittPetersDynamic", STEADY);
         set(&mut block, real::VELOCITY_1, speed);
@@ -52,7 +52,8 @@ fn a_steady_start_stays_where_it_is() {
     }
 }
 
-/// In hover nothing tilts the inflow, and the dynamic model comes to rest at the static one.
+/// In hover the inflow has no gradient, and the steady state of the dynamic model is the static
+/// model.
 #[test]
 fn in_hover_the_steady_state_is_that_of_the_static_model() {
     let thrust = |model| {
@@ -67,8 +68,8 @@ fn in_hover_the_steady_state_is_that_of_the_static_model() {
     );
 }
 
-/// From rest the blades first work in still air: more thrust than in the end, which is approached
-/// within some time constants R 8/(3 pi)/(4 v0) = 40 ms.
+/// After a start with air at rest the blades have no inflow at first, and more thrust than in the
+/// steady state. The thrust settles within a few time constants of R 8/(3 pi)/(4 v0) = 40 ms.
 #[test]
 fn from_rest_the_thrust_falls_to_the_steady_one() {
     let mut steady = block("pittPetersDynamic", STEADY);
@@ -87,7 +88,7 @@ fn from_rest_the_thrust_falls_to_the_steady_one() {
     assert!((previous / end - 1.0).abs() < 1e-6, "{previous} {end}");
 }
 
-/// A jump of collective in forward flight, looked at in the middle of the answer.
+/// Loads in the transient after a jump of collective in forward flight.
 fn after_a_jump(steps: &[f64], azimuth_step: f64) -> [f64; 3] {
     let mut block = block("pittPetersDynamic", STEADY);
     set(&mut block, real::NUMERICS__AZIMUTH_STEP, azimuth_step);
@@ -98,7 +99,7 @@ fn after_a_jump(steps: &[f64], azimuth_step: f64) -> [f64; 3] {
     for step in steps {
         block.step(*step).unwrap();
     }
-    [real::THRUST, real::HUB_MOMENT_1, real::HUB_MOMENT_2].map(|place| get(&block, place))
+    [real::THRUST, real::HUB_MOMENT_1, real::HUB_MOMENT_2].map(|reference| get(&block, reference))
 }
 
 #[test]
@@ -109,7 +110,7 @@ fn the_communication_step_does_not_change_the_answer() {
         let mut steps = steps;
         let rest = 0.0219 - steps.iter().sum::<f64>();
         if rest.abs() > 1e-12 {
-            // The last one makes up the difference, as importers do.
+            // The last step takes the remainder, as in importers.
             let last = steps.len() - 1;
             steps[last] += rest;
         }
@@ -122,7 +123,7 @@ fn the_communication_step_does_not_change_the_answer() {
 
 #[test]
 fn the_integrator_is_of_third_order() {
-    // A time that is a whole number of all grid cells: 24 degrees at 960 rev/min, 60 times.
+    // Five times 24 deg at 960 rev/min, a multiple of all azimuth steps.
     let time = 24.0 / 360.0 / 16.0 * 5.0;
     let error = {
         let reference = after_a_jump(&[time], 0.5_f64.to_radians())[0];
@@ -145,9 +146,7 @@ fn every_flight_is_finite_or_one_clear_error() {
                 for climb in [-12.0, -4.0, 0.0, 12.0] {
                     for degrees in [-20.0_f64, 0.0, 8.0, 25.0, 40.0] {
                         let mut block = block("pittPetersDynamic", initialization);
-                        block
-                            .set_integers(&[integer::NUMERICS__ELEMENTS], &[8])
-                            .unwrap();
+                        set_integer(&mut block, integer::NUMERICS__ELEMENTS, 8);
                         set(&mut block, real::RPM, rpm);
                         set(&mut block, real::VELOCITY_1, edgewise);
                         set(&mut block, real::VELOCITY_3, climb);
@@ -170,7 +169,7 @@ fn every_flight_is_finite_or_one_clear_error() {
     assert!(refused * 20 < flown, "{flown} flown, {refused} refused");
 }
 
-/// Flying sideways is flying forward, turned.
+/// Flight in another direction is forward flight with all loads turned by that direction.
 #[test]
 fn the_transient_turns_with_the_direction_of_flight() {
     let fly = |direction: f64| {
@@ -179,8 +178,9 @@ fn the_transient_turns_with_the_direction_of_flight() {
         set(&mut block, real::VELOCITY_2, 12.0 * direction.sin());
         block.start().unwrap();
         block.step(0.03).unwrap();
-        let [x, y] = [real::HUB_FORCE_1, real::HUB_FORCE_2].map(|place| get(&block, place));
-        let [l, m] = [real::HUB_MOMENT_1, real::HUB_MOMENT_2].map(|place| get(&block, place));
+        let [x, y] = [real::HUB_FORCE_1, real::HUB_FORCE_2].map(|reference| get(&block, reference));
+        let [l, m] =
+            [real::HUB_MOMENT_1, real::HUB_MOMENT_2].map(|reference| get(&block, reference));
         let turned = |x: f64, y: f64| {
             (
                 x * direction.cos() + y * direction.sin(),
@@ -201,10 +201,10 @@ fn the_transient_turns_with_the_direction_of_flight() {
     }
 }
 
-/// The field of induced velocity stays where it is when the wind, however faint, turns round: its
-/// states belong to the hub, not to the wind.
+/// The inflow states belong to the hub frame and not to the wind axes. So the induced velocities
+/// keep their places when a faint wind reverses its direction.
 #[test]
-fn wind_that_turns_round_leaves_the_field_where_it_is() {
+fn wind_that_reverses_leaves_the_induced_velocities_unchanged() {
     let mut block = block("pittPetersDynamic", STEADY);
     set(&mut block, real::CYCLIC_LATERAL, 0.05);
     set(&mut block, real::VELOCITY_1, 1e-6);
@@ -213,7 +213,7 @@ fn wind_that_turns_round_leaves_the_field_where_it_is() {
     let before = moments(&block);
     assert!(
         before[1].abs() > 1.0,
-        "the cyclic pitch makes a moment and with it a field: {before:?}"
+        "the cyclic pitch makes a moment, and with it gradients of inflow: {before:?}"
     );
     set(&mut block, real::VELOCITY_1, -1e-6);
     block.update().unwrap();
@@ -222,9 +222,9 @@ fn wind_that_turns_round_leaves_the_field_where_it_is() {
     }
 }
 
-/// The rotor at rest with its air dying away, for as long as one likes.
+/// The induced velocity of a stopped rotor decays, in steps of any length.
 #[test]
-fn a_stopped_rotor_waits_for_long() {
+fn a_stopped_rotor_can_take_long_steps() {
     let mut block = block("pittPetersDynamic", STEADY);
     block.start().unwrap();
     set(&mut block, real::RPM, 0.0);

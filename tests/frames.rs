@@ -9,11 +9,7 @@ mod support;
 use helicopter_rotor::block::variables::{RealRef, integer, real};
 use nalgebra::Vector3;
 use std::f64::consts::PI;
-use support::{computed, default_block, get, set};
-
-fn thrust(reals: &[(RealRef, f64)]) -> f64 {
-    get(&computed(reals, &[]), real::THRUST)
-}
+use support::{computed, default_block, get, set, thrust};
 
 fn close(found: f64, expected: f64, part: f64, what: &str) {
     let scale = expected.abs();
@@ -28,7 +24,7 @@ fn tilt_turns_the_hub_forces_into_the_ground_frame_and_the_flow_into_the_disc() 
     let tilt = 0.3_f64;
     let block = computed(&[(real::TILT, tilt)], &[]);
     let (t, q) = (get(&block, real::THRUST), get(&block, real::TORQUE));
-    for (place, expected) in [
+    for (reference, expected) in [
         (real::FORCE_1, t * tilt.sin()),
         (real::FORCE_2, 0.0),
         (real::FORCE_3, t * tilt.cos()),
@@ -38,12 +34,12 @@ fn tilt_turns_the_hub_forces_into_the_ground_frame_and_the_flow_into_the_disc() 
         (real::HUB_MOMENT_3, -q),
     ] {
         assert!(
-            (get(&block, place) - expected).abs() < 1e-12 * t,
+            (get(&block, reference) - expected).abs() < 1e-12 * t,
             "{}",
-            place.variable().name
+            reference.variable().name
         );
     }
-    // Motion along the tilted shaft is climb, except for the rounding of the edgewise flow.
+    // Motion along the tilted shaft is climb, apart from the rounding of the edgewise flow.
     let climb = thrust(&[(real::VELOCITY_3, 3.0)]);
     let along = thrust(&[
         (real::TILT, tilt),
@@ -66,8 +62,8 @@ fn wind_is_the_same_as_moving_against_it_to_the_last_bit() {
 fn clockwise_rotation_mirrors_the_moment_only() {
     let other = computed(&[], &[(integer::GEOMETRY__ROTATION, 2)]);
     let block = computed(&[], &[]);
-    for place in [real::THRUST, real::TORQUE, real::POWER, real::FORCE_3] {
-        assert_eq!(get(&other, place), get(&block, place));
+    for reference in [real::THRUST, real::TORQUE, real::POWER, real::FORCE_3] {
+        assert_eq!(get(&other, reference), get(&block, reference));
     }
     assert_eq!(get(&other, real::MOMENT_3), -get(&block, real::MOMENT_3));
 }
@@ -76,7 +72,7 @@ fn clockwise_rotation_mirrors_the_moment_only() {
 fn the_block_turns_motion_into_the_hub_frame_and_loads_out_of_it() {
     let mut block = default_block();
     let (tilt, lateral) = (0.2_f64, -0.1_f64);
-    for (place, value) in [
+    for (reference, value) in [
         (real::TILT, tilt),
         (real::LATERAL_TILT, lateral),
         (real::VELOCITY_1, 12.0),
@@ -84,10 +80,10 @@ fn the_block_turns_motion_into_the_hub_frame_and_loads_out_of_it() {
         (real::WIND_3, 1.0),
         (real::ANGULAR_VELOCITY_2, 0.2),
     ] {
-        set(&mut block, place, value);
+        set(&mut block, reference, value);
     }
     block.update().unwrap();
-    let out = |place: RealRef| get(&block, place);
+    let out = |reference: RealRef| get(&block, reference);
     let axis = Vector3::new(
         tilt.sin() * lateral.cos(),
         -lateral.sin(),

@@ -1,6 +1,6 @@
-//! Every choice of a model has an effect: with each inflow model, any two items of each `models.*`
-//! enumeration differ in thrust or torque somewhere in a small set of flights, except where the
-//! documentation says that they cannot.
+//! Every choice of a model has an effect. With each inflow model, any two items of each `models.*`
+//! enumeration differ in thrust or torque in at least one of a few flights, unless the
+//! documentation says that they are equal.
 
 mod support {
     pub mod block;
@@ -8,7 +8,7 @@ mod support {
 
 use helicopter_rotor::block::variables::{INTEGERS, IntegerRef, RealRef, integer, real, string};
 use std::collections::BTreeSet;
-use support::block::{choose, default_block, get, set};
+use support::block::{choose, default_block, get, set, set_string};
 
 /// A flight as changes of the default inputs.
 type Flight = &'static [(RealRef, f64)];
@@ -30,29 +30,27 @@ const AIRFOIL: &str = "airfoils/naca0015.txt";
 /// Relative difference of thrust or torque that counts as an effect.
 const EFFECT: f64 = 1e-6;
 
-/// Pairs of items that do not differ, as (variable, item, item), with any inflow model:
+/// Pairs of items that are equal with every inflow model, as (variable, item, item):
 ///
 /// * `gessowMyers` and `wheatley` are one formula, published twice.
-/// * `automatic` blades are `individual` ones wherever the azimuth matters.
+/// * `automatic` blades are `individual` ones where the loads depend on the azimuth.
 const SAME_WITH_ALL: [(&str, &str, &str); 2] = [
     ("models.tipLoss", "gessowMyers", "wheatley"),
     ("models.blades", "automatic", "individual"),
 ];
 
-/// Variables that have no effect in `annulusClosedForm`, which holds for axial flow in free air
-/// only: its description says that it is always computed as a disc, by momentum theory, and ground
-/// effect is refused.
+/// Variables without effect in `annulusClosedForm`. That model holds for axial flow in free air
+/// only. Its description says that it is always computed as a disc, by momentum theory, and that
+/// ground effect is refused.
 const WITHOUT_EFFECT_IN_CLOSED_FORM: [&str; 3] =
     ["models.blades", "models.descent", "models.groundEffect"];
 
-/// Thrust and torque in all flights; none where the rotor refuses the models.
+/// Thrust and torque in all flights, or None if the combination of models is refused.
 fn loads(inflow: &str, choice: Option<(IntegerRef, &str)>) -> Option<Vec<f64>> {
     let mut all = Vec::new();
     for flight in FLIGHTS {
         let mut block = default_block();
-        block
-            .set_strings(&[string::AIRFOIL__FILE], &[AIRFOIL])
-            .unwrap();
+        set_string(&mut block, string::AIRFOIL__FILE, AIRFOIL);
         choose(&mut block, integer::MODELS__INFLOW, inflow);
         if let Some((variable, item)) = choice {
             choose(&mut block, variable, item);
@@ -77,7 +75,7 @@ fn models() -> impl Iterator<Item = IntegerRef> {
 
 #[test]
 fn every_choice_of_a_model_has_an_effect_with_every_inflow_model() {
-    let mut without = BTreeSet::new();
+    let mut without_effect = BTreeSet::new();
     for inflow in integer::MODELS__INFLOW.variable().choices {
         for variable in models().filter(|v| *v != integer::MODELS__INFLOW) {
             let name = variable.variable().name;
@@ -93,7 +91,7 @@ fn every_choice_of_a_model_has_an_effect_with_every_inflow_model() {
                         && !is_silent
                         && !SAME_WITH_ALL.contains(&(name, first, second))
                     {
-                        without.insert(format!("{inflow}: {name} {first} and {second}"));
+                        without_effect.insert(format!("{inflow}: {name} {first} and {second}"));
                     }
                     assert!(
                         !(differ(a, b) && is_silent),
@@ -103,7 +101,7 @@ fn every_choice_of_a_model_has_an_effect_with_every_inflow_model() {
             }
         }
     }
-    assert!(without.is_empty(), "no effect: {without:#?}");
+    assert!(without_effect.is_empty(), "no effect: {without_effect:#?}");
 }
 
 #[test]
@@ -125,7 +123,7 @@ fn any_two_inflow_models_differ() {
     }
 }
 
-/// The test looks at every enumeration there is.
+/// The tests cover every `models.*` enumeration.
 #[test]
 fn all_enumerations_of_models_are_covered() {
     let names: Vec<&str> = models().map(|v| v.variable().name).collect();

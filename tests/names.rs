@@ -1,5 +1,5 @@
-//! The names of variables, types and enumeration items as importers take them into their own
-//! languages. Once published they are a contract.
+//! The names of variables, types and enumeration items, which importers use in their own languages.
+//! Published names never change.
 
 use helicopter_rotor::description::XML;
 use roxmltree::Document;
@@ -68,7 +68,7 @@ const MODELICA_KEYWORDS: [&str; 59] = [
     "within",
 ];
 
-/// What MATLAB's `iskeyword` lists.
+/// The list of MATLAB's `iskeyword`.
 const MATLAB_KEYWORDS: [&str; 20] = [
     "break",
     "case",
@@ -95,8 +95,8 @@ const MATLAB_KEYWORDS: [&str; 20] = [
 /// MATLAB's `namelengthmax`.
 const MATLAB_LENGTH: usize = 63;
 
-/// Every enumeration with its items, which have the numbers 1, 2, 3 ... New items are appended here
-/// as in modelDescription/variables.toml; nothing else in this table may ever change.
+/// Every enumeration with its items, which have the numbers 1, 2, 3 ... Append new items here and
+/// in modelDescription/variables.toml. Never change anything else in this table.
 const ENUMERATIONS: [(&str, &[&str]); 12] = [
     (
         "InflowModel",
@@ -188,7 +188,7 @@ fn names_are_distinct_matlab_identifiers_once_punctuation_is_replaced() {
             let identifier = name.replace(['.', '[', ']', '(', ')'], "_");
             is_matlab_identifier(&identifier);
             if let Some(other) = seen.insert(identifier, name.clone()) {
-                panic!("{name} and {other} are one identifier in MATLAB");
+                panic!("{name} and {other} are the same identifier in MATLAB");
             }
         }
     }

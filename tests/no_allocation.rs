@@ -1,5 +1,5 @@
-//! A running simulation allocates no memory: setting and reading numbers, steps, states and
-//! derivatives.
+//! A running simulation allocates no memory: not when numbers are set and read, in steps, and with
+//! states and derivatives.
 
 use helicopter_rotor::{
     block::variables::{GUID, STATES, boolean, integer, real},
@@ -26,7 +26,7 @@ use std::{
     ptr,
 };
 
-/// The system's allocator, which counts what each thread asks of it.
+/// The system's allocator with a count of the allocations of each thread.
 struct Counting;
 
 thread_local! {
@@ -80,20 +80,23 @@ fn instance(kind: fmi2Enumeration, (model, flaps): (&str, i32)) -> fmi2Component
     let resources = CString::new(resources).unwrap();
     // SAFETY: the calls and their arguments are those of the standard.
     unsafe {
-        let (name, guid, place) = (name.as_ptr(), guid.as_ptr(), resources.as_ptr());
-        let c = fmi2Instantiate(name, kind, guid, place, ptr::null(), 0, 0);
+        let (name, guid, folder) = (name.as_ptr(), guid.as_ptr(), resources.as_ptr());
+        let c = fmi2Instantiate(name, kind, guid, folder, ptr::null(), 0, 0);
         assert!(!c.is_null());
-        let place = integer::MODELS__INFLOW.number();
-        assert_eq!(fmi2SetInteger(c, &place, 1, &choice), fmi2Status::fmi2OK);
-        let place = boolean::FLAPPING__ENABLED.number();
-        assert_eq!(fmi2SetBoolean(c, &place, 1, &flaps), fmi2Status::fmi2OK);
+        let reference = integer::MODELS__INFLOW.number();
+        assert_eq!(
+            fmi2SetInteger(c, &reference, 1, &choice),
+            fmi2Status::fmi2OK
+        );
+        let reference = boolean::FLAPPING__ENABLED.number();
+        assert_eq!(fmi2SetBoolean(c, &reference, 1, &flaps), fmi2Status::fmi2OK);
         assert_eq!(fmi2EnterInitializationMode(c), fmi2Status::fmi2OK);
         assert_eq!(fmi2ExitInitializationMode(c), fmi2Status::fmi2OK);
         c
     }
 }
 
-/// Sets inputs that differ from time to time.
+/// Sets inputs that depend on the number of the step.
 fn set_inputs(c: fmi2Component, i: i32) -> fmi2Status {
     let x = f64::from(i);
     let commands = [0.1 + 0.01 * x, 900.0 + x, 2.0 * x, 1.0];
@@ -101,7 +104,7 @@ fn set_inputs(c: fmi2Component, i: i32) -> fmi2Status {
     unsafe { fmi2SetReal(c, INPUTS.as_ptr(), INPUTS.len(), commands.as_ptr()) }
 }
 
-/// Reads the outputs and answers the thrust.
+/// Reads a few loads and returns the thrust.
 fn thrust(c: fmi2Component) -> f64 {
     let mut values = [0.0; 3];
     // SAFETY: the instance lives, and the arrays are as long as is said.
@@ -110,7 +113,7 @@ fn thrust(c: fmi2Component) -> f64 {
     values[0]
 }
 
-/// How often a part of the test asks for memory.
+/// The number of allocations in a part of the test.
 fn allocations(part: impl FnOnce()) -> u64 {
     let before = COUNT.with(Cell::get);
     part();

@@ -1,53 +1,61 @@
-//! The rotors that travel in the FMU: each is read and hovers, and those that were measured in
-//! hover are compared with the measurement (Knight & Hefner's in FMPy: `importers`).
+//! The presets: each is read and hovers, and those that were measured in hover are compared with
+//! the measurement. Knight & Hefner's rotors are compared in crates/program/tests/importers.rs.
+
+#[path = "support/block.rs"]
+mod support;
 
 use helicopter_rotor::block::{
     RotorBlock,
-    variables::{LiftModel, integer, real, string},
+    variables::{integer, real, string},
 };
-use std::{fs, path::PathBuf};
-
-fn root() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-}
+use std::fs;
+use support::{choose, default_block, project, resources, set_string};
 
 fn preset(file: &str) -> RotorBlock {
-    let mut block = RotorBlock::new(root().join("modelDescription/resources"));
-    block
-        .set_strings(&[string::GEOMETRY__FILE], &[file])
-        .unwrap();
+    let mut block = default_block();
+    set_string(&mut block, string::GEOMETRY__FILE, file);
     block
 }
 
+/// Thrust and torque coefficient in hover.
 fn hover(block: &mut RotorBlock, collective_deg: f64, rpm: f64) -> [f64; 2] {
     let references = [real::COLLECTIVE, real::RPM];
     let values = [collective_deg.to_radians(), rpm];
     block.set_reals(&references, &values).unwrap();
     block.update().unwrap();
-    [real::THRUST_COEFFICIENT, real::TORQUE_COEFFICIENT].map(|place| block.values().reals[place])
+    [real::THRUST_COEFFICIENT, real::TORQUE_COEFFICIENT]
+        .map(|reference| block.values().reals[reference])
 }
 
-/// The named columns of a measured table, rows with an empty field left out.
+/// The rows of a measured table in these columns. Rows with an empty field are left out.
 fn measured<const N: usize>(file: &str, columns: [&str; N]) -> Vec<[f64; N]> {
-    let path = root().join("fmu-examples/data").join(file);
+    let path = project().join("fmu-examples/data").join(file);
     let mut table = csv::ReaderBuilder::new();
     let mut table = table.comment(Some(b'#')).from_path(path).unwrap();
     let header = table.headers().unwrap();
-    let places = columns.map(|c| header.iter().position(|h| h == c).unwrap());
+    let indices = columns.map(|c| header.iter().position(|h| h == c).unwrap());
     let rows = table.records().filter_map(|record| {
         let record = record.unwrap();
         let mut row = [0.0; N];
-        for (slot, place) in row.iter_mut().zip(places) {
-            *slot = record[place].parse().ok()?;
+        for (slot, index) in row.iter_mut().zip(indices) {
+            *slot = record[index].parse().ok()?;
         }
         Some(row)
     });
     rows.collect()
 }
 
+/// Castles & Gray's hover tests (NACA TN 2474, Table V): rev/min, pitch in deg, thrust coefficient.
+fn castles_and_gray() -> Vec<[f64; 3]> {
+    measured(
+        "castles-gray-1951-tn2474-tableV-hover-6ft.csv",
+        ["rpm", "theta_075R_deg", "CT"],
+    )
+}
+
 #[test]
 fn every_rotor_hovers() {
-    let folder = root().join("modelDescription/resources/rotors");
+    let folder = resources().join("rotors");
     let mut count = 0;
     for entry in fs::read_dir(folder).unwrap() {
         let name = entry.unwrap().file_name().into_string().unwrap();
@@ -59,21 +67,15 @@ fn every_rotor_hovers() {
     assert!(count >= 6);
 }
 
-/// Castles & Gray's hover tests (NACA TN 2474, Table V). Repeated runs differ by up to 20 % below
-/// CT = 0.0025, so single points are compared above it; at 12 deg the blades stall, and 18 % too
-/// much is computed.
+/// Below CT = 0.0025 repeated runs differ by up to 20 %, so single points are compared above it. At
+/// 12 deg the blades stall, and the computed thrust is 18 % too large.
 #[test]
 fn castles_and_grays_rotor_has_the_measured_thrust_in_hover() {
-    let rows = measured(
-        "castles-gray-1951-tn2474-tableV-hover-6ft.csv",
-        ["rpm", "theta_075R_deg", "CT"],
-    );
+    let rows = castles_and_gray();
     let mut block = preset("castles-gray-6ft.toml");
     let mut ratios = Vec::new();
-    for [rpm, pitch, thrust] in rows
-        .into_iter()
-        .filter(|row| row[2] > 0.0025 && row[1] < 11.0)
-    {
+    let is_compared = |row: &[f64; 3]| row[2] > 0.0025 && row[1] < 11.0;
+    for [rpm, pitch, thrust] in rows.into_iter().filter(is_compared) {
         let [computed, _] = hover(&mut block, pitch, rpm);
         let ratio = computed / thrust;
         assert!(
@@ -86,13 +88,10 @@ fn castles_and_grays_rotor_has_the_measured_thrust_in_hover() {
     assert!(ratios.len() > 10 && (mean - 1.0).abs() < 0.02, "{mean}");
 }
 
-/// From 4 deg of pitch on, repeats and all, below the stall.
+/// All runs, also repeated ones, from 4 deg of pitch to below stall.
 #[test]
-fn castles_and_grays_thrust_is_within_5_per_cent_in_the_mean() {
-    let rows = measured(
-        "castles-gray-1951-tn2474-tableV-hover-6ft.csv",
-        ["rpm", "theta_075R_deg", "CT"],
-    );
+fn castles_and_grays_mean_error_of_thrust_is_below_5_per_cent() {
+    let rows = castles_and_gray();
     let mut block = preset("castles-gray-6ft.toml");
     let compared = rows.iter().filter(|row| (4.0..11.0).contains(&row[1]));
     let magnitudes: Vec<f64> = compared
@@ -108,13 +107,13 @@ fn castles_and_grays_thrust_is_within_5_per_cent_in_the_mean() {
 }
 
 /// NACA TN 626, p. 14: "The blade plan form was straight" and "the blade tip in cross section was
-/// semicircular", so that the plan is rounded by half the section's thickness, 0.15 in, and no
-/// more. A tip that is semicircular in plan takes nearly 2 % of the torque away.
+/// semicircular". So the plan form is rounded over half the section's thickness only, 0.15 in. A
+/// tip that is semicircular in plan form would have nearly 2 % less torque.
 #[test]
 fn knight_and_hefners_blades_are_straight_up_to_the_edge_of_the_tip() {
     for blades in [3, 4] {
-        let file = format!("modelDescription/resources/rotors/knight-hefner-{blades}.toml");
-        let text = fs::read_to_string(root().join(file)).unwrap();
+        let file = format!("rotors/knight-hefner-{blades}.toml");
+        let text = fs::read_to_string(resources().join(file)).unwrap();
         let table: toml::Table = text.parse().unwrap();
         let stations: Vec<[f64; 2]> = table["station"]
             .as_array()
@@ -141,15 +140,13 @@ fn knight_and_hefners_blades_are_straight_up_to_the_edge_of_the_tip() {
     }
 }
 
-/// The polar with drag by Reynolds number is the measured one where it was measured; its lift is
-/// that everywhere, and its drag falls with the Reynolds number.
+/// The polar with drag by Reynolds number contains the measured polar at the Reynolds number of the
+/// measurement. Its lift is the measured lift at all Reynolds numbers, and its drag falls with the
+/// Reynolds number.
 #[test]
-fn the_measured_polar_stays_in_the_one_with_drag_by_reynolds_number() {
+fn the_polar_with_drag_by_reynolds_number_contains_the_measured_polar() {
     let blocks = |name: &str| -> Vec<(f64, Vec<[f64; 3]>)> {
-        let file = root()
-            .join("modelDescription/resources/airfoils")
-            .join(name);
-        let text = fs::read_to_string(file).unwrap();
+        let text = fs::read_to_string(resources().join("airfoils").join(name)).unwrap();
         let mut blocks = Vec::new();
         for line in text.lines().filter(|line| !line.starts_with('#')) {
             let words: Vec<&str> = line.split_whitespace().collect();
@@ -164,9 +161,9 @@ fn the_measured_polar_stays_in_the_one_with_drag_by_reynolds_number() {
         }
         blocks
     };
-    let own = blocks("naca0015-knight-hefner.polar");
+    let measured = blocks("naca0015-knight-hefner.polar");
     let scaled = blocks("naca0015-knight-hefner-reynolds.polar");
-    assert!(own.len() == 1 && scaled.contains(&own[0]));
+    assert!(measured.len() == 1 && scaled.contains(&measured[0]));
     assert!(scaled[0].0 <= 4e4 && scaled.last().unwrap().0 >= 1e6);
     for pair in scaled.windows(2) {
         for (low, high) in pair[0].1.iter().zip(&pair[1].1) {
@@ -180,10 +177,10 @@ fn the_measured_polar_stays_in_the_one_with_drag_by_reynolds_number() {
     }
 }
 
-/// Caradonna & Tung (NASA TM-81232, figs. 3 to 5): annuli are known to give too much thrust on
-/// blades of aspect ratio 6. This is a regression test of how much.
+/// Caradonna & Tung (NASA TM-81232, figs. 3 to 5): annuli are known to give too much thrust for
+/// blades of aspect ratio 6. This is only a regression test.
 #[test]
-fn caradonna_and_tungs_rotor_has_too_much_thrust_as_annuli_are_known_to_give() {
+fn caradonna_and_tungs_rotor_has_the_known_excess_of_thrust_with_annuli() {
     let rows = measured(
         "caradonna-tung-1981-tm81232-CT.csv",
         ["collective_deg", "rpm", "CT"],
@@ -200,19 +197,15 @@ fn caradonna_and_tungs_rotor_has_too_much_thrust_as_annuli_are_known_to_give() {
     }
 }
 
-/// At the thesis' own speed and pitch, with its kind of lift; there is nothing to compare with.
+/// The thesis gives no measured thrust. At its speed and pitch, its lift slopes give nearly the
+/// thrust of the airfoil table.
 #[test]
 fn the_thesis_rotor_hovers_with_the_thesis_lift_slopes() {
     for collective in [15.3, 16.9] {
         let mut block = preset("thesis.toml");
         let [table, _] = hover(&mut block, collective, 430.5);
-        block
-            .set_strings(&[string::AIRFOIL__FILE], &["naca0015.txt"])
-            .unwrap();
-        let lift = integer::MODELS__LIFT;
-        block
-            .set_integers(&[lift], &[LiftModel::SlopesByReynolds as i32])
-            .unwrap();
+        set_string(&mut block, string::AIRFOIL__FILE, "naca0015.txt");
+        choose(&mut block, integer::MODELS__LIFT, "slopesByReynolds");
         let [slopes, _] = hover(&mut block, collective, 430.5);
         let tip_speed = 430.5 * std::f64::consts::PI / 30.0 * 1.22;
         assert!((tip_speed - 55.0).abs() < 0.01);

@@ -1,18 +1,17 @@
-//! The thesis' lift slopes, stall angles and drag polynomials through the block, as a user sets
-//! them.
+//! The thesis' lift slopes, stall angles and drag polynomials by way of the variables.
+
+#[path = "support/block.rs"]
+mod support;
 
 use helicopter_rotor::block::{
     RotorBlock,
     variables::{
-        CompressibilityModel, InflowModel, IntegerRef, LiftModel, RealRef, TipLossModel, integer,
-        real, string,
+        CompressibilityModel, InflowModel, IntegerRef, LiftModel, TipLossModel, integer, real,
+        string,
     },
 };
 use std::{fs, path::PathBuf};
-
-fn resources() -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("modelDescription/resources")
-}
+use support::{default_block, set, set_integer, set_string};
 
 /// A file with the slopes 6 (A) and 4 (C), stall at 0.2 rad and drag 0.01 + 0.5 alpha^2.
 fn constant_laws() -> String {
@@ -26,29 +25,23 @@ fn constant_laws() -> String {
     file.to_str().unwrap().to_owned()
 }
 
+/// A block with an airfoil file and values of parameters.
 fn block(file: &str, integers: &[(IntegerRef, i32)]) -> RotorBlock {
-    let mut block = RotorBlock::new(resources());
-    block
-        .set_strings(&[string::AIRFOIL__FILE], &[file])
-        .unwrap();
-    for (place, value) in integers {
-        block.set_integers(&[*place], &[*value]).unwrap();
+    let mut block = default_block();
+    set_string(&mut block, string::AIRFOIL__FILE, file);
+    for (reference, value) in integers {
+        set_integer(&mut block, *reference, *value);
     }
     block
 }
 
-fn set(block: &mut RotorBlock, place: RealRef, value: f64) {
-    block.set_reals(&[place], &[value]).unwrap();
-}
-
-/// Parameters and their values.
 const LIFT: (IntegerRef, i32) = (integer::MODELS__LIFT, LiftModel::SlopesByReynolds as i32);
 const INCOMPRESSIBLE: (IntegerRef, i32) = (
     integer::MODELS__COMPRESSIBILITY,
     CompressibilityModel::None as i32,
 );
-const NO_TIP_LOSS: (IntegerRef, i32) = (integer::MODELS__TIP_LOSS, TipLossModel::None as i32);
-/// As many as stations are shown.
+const WITHOUT_TIP_LOSS: (IntegerRef, i32) = (integer::MODELS__TIP_LOSS, TipLossModel::None as i32);
+/// The number of stations in the outputs, so that each element is one of them.
 const ELEMENTS: (IntegerRef, i32) = (integer::NUMERICS__ELEMENTS, 20);
 
 /// Angle of attack, lift and drag coefficient at the stations.
@@ -65,7 +58,7 @@ fn stations(block: &RotorBlock) -> Vec<(f64, f64, f64)> {
         .collect()
 }
 
-/// Line A up to 3 deg of pitch and line B above, whatever the angle of attack is.
+/// Line A up to 3 deg of pitch and line B above, for every angle of attack.
 #[test]
 fn the_pitch_chooses_the_slope() {
     for inflow in [
@@ -84,7 +77,7 @@ fn the_pitch_chooses_the_slope() {
             let inflow = (integer::MODELS__INFLOW, inflow as i32);
             let mut block = block(
                 &constant_laws(),
-                &[LIFT, INCOMPRESSIBLE, NO_TIP_LOSS, ELEMENTS, inflow],
+                &[LIFT, INCOMPRESSIBLE, WITHOUT_TIP_LOSS, ELEMENTS, inflow],
             );
             set(&mut block, real::COLLECTIVE, f64::to_radians(collective));
             set(&mut block, real::AIRFOIL__DRAG_REYNOLDS_EXPONENT, 0.0);
@@ -101,32 +94,33 @@ fn the_pitch_chooses_the_slope() {
     }
 }
 
-/// With washout the inner elements of one blade may lie above 3 deg and the outer ones below.
+/// With washout the inner elements of a blade may have more than 3 deg of pitch and the outer ones
+/// less.
 #[test]
 fn each_element_has_the_slope_of_its_own_pitch() {
     let mut block = block(
         &constant_laws(),
-        &[LIFT, INCOMPRESSIBLE, NO_TIP_LOSS, ELEMENTS],
+        &[LIFT, INCOMPRESSIBLE, WITHOUT_TIP_LOSS, ELEMENTS],
     );
     set(&mut block, real::GEOMETRY__TWIST, f64::to_radians(-8.0));
     set(&mut block, real::COLLECTIVE, f64::to_radians(8.0));
     block.update().unwrap();
-    let (mut of_a, mut of_b) = (0, 0);
+    let (mut count_a, mut count_b) = (0, 0);
     for (i, (alpha, lift, _)) in stations(&block).into_iter().enumerate() {
         let radius = block.values().reals[real::STATION__RADIUS[i]];
         let above = 8.0 - 8.0 * radius > 3.0;
-        *(if above { &mut of_b } else { &mut of_a }) += 1;
+        *(if above { &mut count_b } else { &mut count_a }) += 1;
         let slope = if above { 5.0 } else { 6.0 };
         assert!((lift - slope * alpha).abs() < 1e-12, "r/R {radius}");
     }
-    assert!(of_a > 3 && of_b > 3);
+    assert!(count_a > 3 && count_b > 3);
 }
 
 #[test]
-fn the_drag_is_the_polynomial_and_stall_is_the_files() {
+fn drag_and_stall_angle_are_those_of_the_file() {
     let mut block = block(
         &constant_laws(),
-        &[LIFT, INCOMPRESSIBLE, NO_TIP_LOSS, ELEMENTS],
+        &[LIFT, INCOMPRESSIBLE, WITHOUT_TIP_LOSS, ELEMENTS],
     );
     set(&mut block, real::AIRFOIL__DRAG_REYNOLDS_EXPONENT, 0.0);
     block.update().unwrap();
@@ -141,9 +135,9 @@ fn the_drag_is_the_polynomial_and_stall_is_the_files() {
     assert!(beyond > 0 && (stalled - beyond as f64 / 20.0).abs() < 1e-12);
 }
 
-/// `table` reads the same file as lift along A and then C.
+/// With `table` the same file gives lift along line A and then line C.
 #[test]
-fn a_table_of_laws_is_near_the_polar_that_it_was_made_from() {
+fn the_shipped_lift_slopes_are_near_the_polar_that_they_were_made_from() {
     let thrust = |file: &str, collective: f64, lift: LiftModel| {
         let mut block = block(file, &[(integer::MODELS__LIFT, lift as i32)]);
         set(&mut block, real::COLLECTIVE, f64::to_radians(collective));
@@ -158,7 +152,7 @@ fn a_table_of_laws_is_near_the_polar_that_it_was_made_from() {
             "{collective}: {laws} {polar}"
         );
     }
-    // At small angles of attack B lies below A, which `table` has there.
+    // At small angles of attack line B lies below line A, which `table` uses there.
     let (a, b) = (
         thrust("naca0015.txt", 5.0, LiftModel::Table),
         thrust("naca0015.txt", 5.0, LiftModel::SlopesByReynolds),
@@ -166,9 +160,9 @@ fn a_table_of_laws_is_near_the_polar_that_it_was_made_from() {
     assert!(b < a && b > 0.85 * a, "{a} {b}");
 }
 
-/// The shipped file in all that a rotor meets, with every inflow model that has no states.
+/// The shipped file in many flights, with every inflow model that has no states.
 #[test]
-fn every_flight_state_is_finite() {
+fn outputs_are_finite_in_every_flight() {
     let choices = integer::MODELS__INFLOW.variable().choices;
     for (i, inflow) in choices.iter().enumerate() {
         if matches!(*inflow, "pittPetersDynamic" | "petersHe") {
@@ -221,9 +215,7 @@ fn a_file_without_lift_slopes_is_refused_with_the_remedy() {
         }
     }
     let mut block = block("naca0015.txt", &[LIFT]);
-    block
-        .set_strings(&[string::GEOMETRY__FILE], &["knight-hefner-3.toml"])
-        .unwrap();
+    set_string(&mut block, string::GEOMETRY__FILE, "knight-hefner-3.toml");
     let message = block.update().unwrap_err().to_string();
     assert!(
         message.contains("circle.polar")

@@ -1,18 +1,18 @@
-//! Exact derivatives along a direction: the physics computed once with dual numbers.
+//! Exact derivatives along a direction: one computation of the physics in dual numbers.
 
 use super::{
     BlockError, RotorBlock, Stage,
+    computation::inputs,
     flight_condition::FlightCondition,
-    inputs,
-    outputs::{write_outputs, write_stations},
+    outputs::write_response,
     references::{Names, Reals},
     setup,
-    state_vector::{read_states, write_derivatives, write_states},
+    state_vector::read_states,
     values::ValueError,
     variables::{Causality, RealRef, STATES, real},
 };
 use num_dual::Dual64;
-use rotor::{OperatingPoint, Response, Rotor, State};
+use rotor::{OperatingPoint, Rotor, State};
 use thiserror::Error;
 
 /// Why a derivative was not computed.
@@ -20,13 +20,17 @@ use thiserror::Error;
 pub enum DerivativeError {
     #[error(transparent)]
     Reference(#[from] ValueError),
-    #[error("{name} is not computed, so that it has no derivative; ask for outputs or der(...)")]
+    #[error(
+        "{name} is not computed and has no derivative; ask for the derivative of an output or of der(...)"
+    )]
     NotUnknown { name: &'static str },
     #[error(
-        "there are no derivatives by {name}; they are by inputs, tunable parameters and, once initialised, states"
+        "there is no derivative with respect to {name}; ask for those with respect to inputs, tunable parameters or, after initialisation, states"
     )]
     NotKnown { name: &'static str },
-    #[error("{name} has no derivative by {knowns} in this state ({change}); move away from it")]
+    #[error(
+        "the derivative of {name} with respect to {knowns} is {change} in this state, which is not finite; move away from this state"
+    )]
     NoDerivative {
         name: &'static str,
         knowns: String,
@@ -37,15 +41,19 @@ pub enum DerivativeError {
 }
 
 impl RotorBlock {
-    /// The derivatives of what is computed (outputs, stations, derivatives of the states) along a
-    /// direction that `knowns` (inputs, states, tunable parameters) take with the seeds `along`:
-    /// for each unknown the sum of (d unknown/d known) times seed, unit of the unknown. At the
-    /// present inputs and states; while the block is configured, with the states that the start
-    /// finds, which move with the inputs. At a corner of a table or of the model, the one-sided
-    /// derivative towards the side to which the direction leads; within rounding of one, that of
-    /// either side. Where a value jumps, at the standstill of the rotor or of all air, the
-    /// derivative knows nothing of what lies beyond: coefficients and induced velocity of a rotor
-    /// at rest stay 0. All or nothing.
+    /// The derivatives of `unknowns` (outputs, stations, derivatives of the states) along a
+    /// direction, at the present inputs and states. The direction is given by `knowns` (inputs,
+    /// states, tunable parameters) and one seed for each in `along`. The result for each unknown is
+    /// the sum of (d unknown/d known) times seed, in the unit of the unknown. An error means that
+    /// none was computed.
+    ///
+    /// While the block is being configured, the states are those at the start, which depend on the
+    /// inputs.
+    ///
+    /// At a corner of a table or of a model, the result is the one-sided derivative to the side to
+    /// which the direction points. Within rounding of a corner it may be that of either side. Where
+    /// a value jumps, with the rotor stopped or all air at rest, the derivative does not see the
+    /// value beyond the jump: coefficients and induced velocity of a stopped rotor stay 0.
     pub fn directional_derivative(
         &mut self,
         unknowns: &[impl Names<RealRef>],
@@ -77,8 +85,9 @@ impl RotorBlock {
         changes(reals, unknowns, knowns.map(|known| known.variable().name))
     }
 
-    /// The derivatives of outputs in time, per second, at the present, as a step ends there: with
-    /// the states' own rates, and with those of the inputs in the last step. All or nothing.
+    /// The time derivatives of outputs, per second, at the end of the last step: with the rates of
+    /// the states, and with the rates that the inputs had in that step. An error means that none
+    /// was computed.
     pub fn output_rates(
         &mut self,
         outputs: &[impl Names<RealRef>],
@@ -102,8 +111,8 @@ impl RotorBlock {
         changes(reals, outputs, ["time"].into_iter())
     }
 
-    /// Replaces the computed variables in `reals` by what the inputs, states and parameters in it
-    /// make of them.
+    /// Computes the outputs and derivatives in `reals` from the inputs, states and parameters in
+    /// it.
     fn respond_along(&mut self, reals: &mut Reals<Dual64>) -> Result<(), DerivativeError> {
         if self.stage == Stage::Configuring {
             self.update()?;
@@ -112,20 +121,15 @@ impl RotorBlock {
             FlightCondition::with_reals(&self.values, reals).map_err(BlockError::from)?;
         let rotor = self.rotor()?;
         let state = self.state_along(&rotor, &condition.point, reals)?;
-        let response = rotor.respond(&condition.point, &state, &mut self.dual_workspace);
-        let Response { hub, rates, blade } = match response {
-            Ok(response) => response,
-            Err(error) => return Err(BlockError::Unsolved(error, inputs(&self.values)).into()),
-        };
-        write_outputs(reals, &rotor, &hub, &condition, &state);
-        write_stations(reals, &rotor, &blade);
-        write_states(reals, &state);
-        write_derivatives(reals, &rates);
+        let response = rotor
+            .respond(&condition.point, &state, &mut self.dual_workspace)
+            .map_err(|error| BlockError::Unsolved(error, inputs(&self.values)))?;
+        write_response(reals, &rotor, &condition, &state, &response);
         Ok(())
     }
 
-    /// The states at an operating point: those among `reals` or, while the block is configured,
-    /// those of the start.
+    /// The states at an operating point: those in `reals` or, while the block is being configured,
+    /// those at the start.
     fn state_along(
         &mut self,
         rotor: &Rotor,
@@ -146,7 +150,7 @@ impl RotorBlock {
     }
 }
 
-/// The changes of some of the variables, if all are finite; `along`: what they are derivatives by.
+/// The derivatives of `unknowns`, if all are finite. `along` names the knowns for the error.
 fn changes<'a>(
     reals: Reals<Dual64>,
     unknowns: &'a [impl Names<RealRef>],

@@ -1,4 +1,5 @@
-//! The flight condition: the operating point that the inputs describe, and where the shaft points.
+//! The flight condition: the operating point that the inputs describe, and the attitude of the
+//! shaft.
 
 use super::{
     references::Reals,
@@ -14,7 +15,7 @@ use rotor::{
     scalar::Scalar,
 };
 
-/// The operating point that the inputs describe, and where the shaft points.
+/// The operating point that the inputs describe, and the attitude of the shaft.
 pub struct FlightCondition<S = f64> {
     pub shaft: Shaft<S>,
     pub point: OperatingPoint<S>,
@@ -27,7 +28,7 @@ impl FlightCondition {
 }
 
 impl<S: Scalar> FlightCondition<S> {
-    /// With other numbers in place of the Real variables.
+    /// The condition for the Real variables `reals`. All others are those of `values`.
     pub fn with_reals(values: &Values, reals: &Reals<S>) -> Result<Self, SetupError> {
         let shaft = Shaft::new(reals);
         let point = OperatingPoint {
@@ -53,7 +54,7 @@ impl<S: Scalar> FlightCondition<S> {
     }
 }
 
-/// The hub frame against the ground, and the hub's motion in the hub frame.
+/// The attitude of the hub frame to the ground, and the motion of the hub in the hub frame.
 pub struct Shaft<S = f64> {
     pub hub_to_ground: Matrix3<S>,
     /// Velocity through the air, m/s.
@@ -66,8 +67,8 @@ pub struct Shaft<S = f64> {
 
 impl<S: Scalar> Shaft<S> {
     /// The hub frame is the ground frame (x forward, y left, z up) turned by `tilt` about its y
-    /// axis, so that positive tilt leans the shaft forward, and then by `lateralTilt` about the x
-    /// axis that came of it, so that positive lateral tilt leans the shaft to the right.
+    /// axis, and then by `lateralTilt` about the new x axis. Positive tilt leans the shaft forward,
+    /// positive lateral tilt leans it to the right.
     pub fn new(reals: &Reals<S>) -> Self {
         let (zero, one) = (S::zero(), S::one());
         let turn = |angle: RealRef| (reals[angle].sin(), reals[angle].cos());
@@ -99,6 +100,7 @@ impl<S: Scalar> Shaft<S> {
     }
 }
 
+/// The air at the altitude, or of the given density and temperature.
 fn air<S: Scalar>(values: &Values, reals: &Reals<S>) -> Result<Air<S>, SetupError> {
     Ok(
         match setup::choice(values, integer::AIR__ATMOSPHERE, Atmosphere::from_integer)? {

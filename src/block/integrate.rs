@@ -1,35 +1,38 @@
 //! Time integration of the rotor's states.
 //!
-//! Steps of the rotor on a grid of azimuth that begins where the simulation does, and anew where
-//! the inputs change. A communication point between two grid points is met exactly, by a shorter
-//! step from the grid point before; the next step goes on from that grid point, not from the
-//! communication point, as long as the inputs stay the same. So constant inputs give the same
-//! answer, to the rounding of times, whatever the communication step. Inputs that move within a
-//! communication step begin a grid of their own at its beginning.
+//! The steps of the rotor lie on a grid of azimuth. The grid begins at the start of the simulation,
+//! and again where the inputs change. A communication point between two grid points is reached
+//! exactly, by a shorter step from the grid point before it. While the inputs stay constant, the
+//! next step continues from that grid point and not from the communication point. So constant
+//! inputs give the same answer, up to the rounding of times, for every communication step. Inputs
+//! that move within a communication step begin a grid of their own at its beginning.
 
 use rotor::{Drive, OperatingPoint, Rotor, SolveError, State, Workspace};
 
-/// The states, and the place on the grid.
+/// The states, and the position on the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Memory {
-    /// At present.
+    /// The present states.
     pub state: State,
+    /// None if the next step begins a grid at the present states.
     pub since: Option<Since>,
 }
 
-/// The beginning of the stretch with the present inputs, or the last grid point in it.
+/// The last grid point: where the grid begins, or the end of its last full step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Since {
+    /// The operating point of the whole grid.
     pub point: OperatingPoint,
+    /// The states at the grid point.
     pub state: State,
-    /// Time from there to the present, s.
+    /// Time from the grid point to the present, s.
     pub elapsed: f64,
 }
 
 /// The operating point during a communication step.
 pub enum Inputs<F> {
     Constant(OperatingPoint),
-    /// By the time since the beginning of the communication step, s.
+    /// A function of the time since the beginning of the communication step, s.
     Moving(F),
 }
 
@@ -42,30 +45,30 @@ impl<F: FnMut(f64) -> OperatingPoint> Inputs<F> {
     }
 }
 
-/// Longest grid cell, s, for slow rotors.
+/// Maximum time between grid points, s. It holds for slow rotors.
 pub const LONGEST_CELL: f64 = 0.02;
 
 /// Maximum number of steps within one communication step.
 const MAX_STEPS: u32 = 100_000;
 
-/// Change of the states within a step below which they have settled, as a fraction of the speeds in
-/// the problem.
+/// Largest change of settled states in a step, as a fraction of tip speed plus airspeed.
 const SETTLED: f64 = 1e-15;
 
-/// The same, m/s, for a stopped rotor in still air, whose wake dies away ever more slowly.
+/// The same for a stopped rotor in still air, m/s. Its wake decays more and more slowly.
 const SETTLED_IN_STILL_AIR: f64 = 1e-8;
 
 impl Memory {
-    /// States to start from.
+    /// The memory of a simulation that starts with these states.
     pub fn starting(state: State) -> Self {
         Self { state, since: None }
     }
 }
 
-/// What integrates: a rotor, its workspace, and the largest step, rad.
+/// An integration of a rotor.
 pub struct Integration<'a> {
     pub rotor: &'a Rotor,
     pub workspace: &'a mut Workspace,
+    /// Maximum step of azimuth, rad.
     pub azimuth_step: f64,
 }
 
@@ -80,12 +83,7 @@ impl Integration<'_> {
         let point = inputs.at(0.0);
         let is_constant = matches!(inputs, Inputs::Constant(_));
         if !self.rotor.has_memory(&point) {
-            // The mean of a speed that changes linearly.
-            let speed = if is_constant {
-                point.speed
-            } else {
-                0.5 * (point.speed + inputs.at(duration).speed)
-            };
+            let speed = mean_speed(&mut inputs, duration);
             let mut state = memory.state;
             state.azimuth += speed * duration;
             return Ok(Memory::starting(state));
@@ -98,52 +96,47 @@ impl Integration<'_> {
                 elapsed: 0.0,
             },
         };
-        let mut left = since.elapsed + duration;
+        let mut remaining = since.elapsed + duration;
         let mut steps = 0;
         loop {
-            // Inputs that move are those at the time of the grid point.
-            let begin = duration - left;
+            // Inputs that move have their values at the time of the grid point.
+            let begin = duration - remaining;
             let point = inputs.at(begin);
-            // Infinite for a rotor at rest.
             let speed = point.at_speed_of(&since.state).speed;
-            let mut cell = (self.azimuth_step / speed.abs()).min(LONGEST_CELL);
-            if let Drive::Torque { torque, inertia } = point.drive {
-                // Nor may the speed that a torque gives turn the rotor further.
-                cell = cell.min(libm::sqrt(2.0 * self.azimuth_step * inertia / torque.abs()));
-            }
-            // Fail fast instead of exhausting the step budget.
-            let steps_of_cell = |rotor: &Rotor| rotor.stable_steps(&point, &since.state, cell);
+            let cell = self.cell(&point, speed);
+            // Fail at once instead of exhausting the step budget.
             if steps == 0
-                && left / cell * steps_of_cell(self.rotor) > f64::from(MAX_STEPS)
+                && remaining / cell * self.rotor.stable_steps(&point, &since.state, cell)
+                    > f64::from(MAX_STEPS)
                 && self.rotor.evaluate(&point, &since.state).never_settles()
             {
                 return Err(SolveError::StepTooLong(duration));
             }
-            let reaches_grid = left >= cell * (1.0 - 1e-9);
-            let part = if reaches_grid { cell } else { left };
+            let reaches_grid = remaining >= cell * (1.0 - 1e-9);
+            let part = if reaches_grid { cell } else { remaining };
             let stretch = Stretch { begin, part };
             let state = self
                 .integrate(&mut inputs, &since.state, stretch, &mut steps)?
                 .ok_or(SolveError::StepTooLong(duration))?;
             if !reaches_grid {
-                since.elapsed = left;
+                since.elapsed = remaining;
                 return Ok(Memory {
                     state,
                     since: is_constant.then_some(since),
                 });
             }
-            left = (left - part).max(0.0);
-            // A torque, however small, moves the rotor in the end.
+            remaining = (remaining - part).max(0.0);
+            // A rotor that a torque drives never settles: even a small torque moves it in the end.
             let has_settled = is_constant
                 && !point.is_driven()
                 && state.largest_change(&since.state) <= settled(self.rotor, &point);
             since.state = state;
             if has_settled {
-                since.state.azimuth += speed * left;
-                left = 0.0;
+                since.state.azimuth += speed * remaining;
+                remaining = 0.0;
             }
-            since.elapsed = left;
-            if left == 0.0 {
+            since.elapsed = remaining;
+            if remaining == 0.0 {
                 return Ok(Memory {
                     state: since.state,
                     since: is_constant.then_some(since),
@@ -152,9 +145,22 @@ impl Integration<'_> {
         }
     }
 
-    /// The states after a stretch, in steps that are short enough for the states' fastest rate at
-    /// its beginning and, where inputs move, at its end; none if that makes more than `MAX_STEPS`
-    /// in all.
+    /// The time to the next grid point, s.
+    fn cell(&self, point: &OperatingPoint, speed: f64) -> f64 {
+        // The quotient is infinite for a stopped rotor.
+        let cell = (self.azimuth_step / speed.abs()).min(LONGEST_CELL);
+        match point.drive {
+            Drive::Speed => cell,
+            // The azimuth gained by the acceleration is limited to the azimuth step, too.
+            Drive::Torque { torque, inertia } => {
+                cell.min(libm::sqrt(2.0 * self.azimuth_step * inertia / torque.abs()))
+            }
+        }
+    }
+
+    /// The states after a stretch. The steps are short enough for the fastest rate of the states at
+    /// its beginning and, if inputs move, at its end. None if that needs more than `MAX_STEPS` in
+    /// the communication step.
     fn integrate<F: FnMut(f64) -> OperatingPoint>(
         &mut self,
         inputs: &mut Inputs<F>,
@@ -184,14 +190,25 @@ impl Integration<'_> {
     }
 }
 
-/// A part of the communication step, s, from its beginning.
+/// A part of the communication step.
 #[derive(Clone, Copy)]
 struct Stretch {
+    /// Time since the beginning of the communication step, s.
     begin: f64,
+    /// Duration of the part, s.
     part: f64,
 }
 
-/// The change of the states within a step below which they have settled.
+/// The mean rotor speed in a communication step, in which it changes linearly.
+fn mean_speed<F: FnMut(f64) -> OperatingPoint>(inputs: &mut Inputs<F>, duration: f64) -> f64 {
+    let speed = inputs.at(0.0).speed;
+    match inputs {
+        Inputs::Constant(_) => speed,
+        Inputs::Moving(_) => 0.5 * (speed + inputs.at(duration).speed),
+    }
+}
+
+/// Largest change of settled states in a step.
 fn settled(rotor: &Rotor, point: &OperatingPoint) -> f64 {
     let speeds = point.speed * rotor.geometry().radius + point.airspeed.norm();
     if speeds > 0.0 {

@@ -1,82 +1,53 @@
-//! What the rotor answers, as values of the outputs.
+//! From the response of the rotor to the values of the computed variables.
 
-use super::{flight_condition::FlightCondition, references::Reals, variables::real};
+use super::{
+    flight_condition::FlightCondition,
+    references::Reals,
+    state_vector::{write_derivatives, write_states},
+    variables::real,
+};
 use core::f64::consts::{PI, SQRT_2};
-use rotor::{BladeLoads, Drive, HubLoads, Rotor, State, scalar::Scalar};
+use nalgebra::Matrix3;
+use rotor::{BladeLoads, Drive, HubLoads, OperatingPoint, Response, Rotor, State, scalar::Scalar};
 
 /// Number of stations along the blade.
 const STATIONS: usize = real::STATION__RADIUS.len();
 
-/// Tip speed, m/s, up to which a rotor counts as standing still, where coefficients mean nothing.
+/// Tip speed, m/s, up to which a rotor counts as stopped. Coefficients have no meaning there.
 const STANDSTILL: f64 = 1e-6;
 
-/// Writes the outputs among the Real variables.
-pub fn write_outputs<S: Scalar>(
+/// Writes all computed variables: the response of the rotor in a state, and the state itself.
+pub fn write_response<S: Scalar>(
+    reals: &mut Reals<S>,
+    rotor: &Rotor,
+    condition: &FlightCondition<S>,
+    state: &State<S>,
+    response: &Response<S>,
+) {
+    write_outputs(reals, rotor, &response.hub, condition, state);
+    write_stations(reals, rotor, &response.blade);
+    write_states(reals, state);
+    write_derivatives(reals, &response.rates);
+}
+
+/// Writes the outputs of the rotor as a whole.
+fn write_outputs<S: Scalar>(
     reals: &mut Reals<S>,
     rotor: &Rotor,
     hub: &HubLoads<S>,
     condition: &FlightCondition<S>,
     state: &State<S>,
 ) {
-    let shaft = &condition.shaft;
     let point = &condition.point.at_speed_of(state);
-    let HubLoads {
-        force: hub_force,
-        moment: hub_moment,
-        torque,
-        ..
-    } = *hub;
-    let thrust = hub_force.z;
-    let force = shaft.hub_to_ground * hub_force;
-    let moment = shaft.hub_to_ground * hub_moment;
-    for (places, vector) in [
-        ([real::FORCE_1, real::FORCE_2, real::FORCE_3], force),
-        ([real::MOMENT_1, real::MOMENT_2, real::MOMENT_3], moment),
-        (
-            [real::HUB_FORCE_1, real::HUB_FORCE_2, real::HUB_FORCE_3],
-            hub_force,
-        ),
-        (
-            [real::HUB_MOMENT_1, real::HUB_MOMENT_2, real::HUB_MOMENT_3],
-            hub_moment,
-        ),
-    ] {
-        for (place, component) in places.into_iter().zip(vector.iter()) {
-            reals[place] = *component;
-        }
-    }
-
-    let air = &point.air;
     let geometry = rotor.geometry();
-    let radius = geometry.radius;
-    let tip_speed = point.speed.abs() * radius;
-    let reference_force = air.density * PI * radius * radius * tip_speed * tip_speed;
-    let per = |quantity: S, reference: S| {
-        if tip_speed.value() > STANDSTILL {
-            quantity / reference
-        } else {
-            S::zero()
-        }
-    };
-    let thrust_coefficient = per(thrust, reference_force);
-    let torque_coefficient = per(torque, reference_force * radius);
-    reals[real::THRUST] = thrust;
-    reals[real::TORQUE] = torque;
-    reals[real::POWER] = torque * point.speed;
-    reals[real::THRUST_COEFFICIENT] = thrust_coefficient;
-    reals[real::TORQUE_COEFFICIENT] = torque_coefficient;
-    // CP = CQ in these units, but for a rotor that turns backwards.
-    reals[real::POWER_COEFFICIENT] = torque_coefficient * point.speed.value().signum();
-    reals[real::FIGURE_OF_MERIT] =
-        if thrust_coefficient.value() > 0.0 && torque_coefficient.value() > 0.0 {
-            thrust_coefficient * thrust_coefficient.sqrt() / (torque_coefficient * SQRT_2)
-        } else {
-            S::zero()
-        };
+    let air = &point.air;
+    let tip_speed = point.speed.abs() * geometry.radius;
+    write_forces_and_moments(reals, hub, &condition.shaft.hub_to_ground);
+    write_coefficients(reals, hub, point, geometry.radius);
+    reals[real::THRUST] = hub.force.z;
+    reals[real::TORQUE] = hub.torque;
+    reals[real::POWER] = hub.torque * point.speed;
     reals[real::INDUCED_VELOCITY] = hub.induced_velocity;
-    let airspeed = &point.airspeed;
-    reals[real::INFLOW_RATIO] = per(airspeed.z + hub.induced_velocity, tip_speed);
-    reals[real::ADVANCE_RATIO] = per(airspeed.x.hypot(airspeed.y), tip_speed);
     reals[real::ROTOR_SPEED] = match point.drive {
         Drive::Speed => reals[real::RPM],
         Drive::Torque { .. } => point.speed * 30.0 / PI,
@@ -91,15 +62,74 @@ pub fn write_outputs<S: Scalar>(
     reals[real::AIR_DENSITY] = air.density;
 }
 
-/// Writes what goes on along the blade, at the middles of equal parts from cutout to tip.
-pub fn write_stations<S: Scalar>(reals: &mut Reals<S>, rotor: &Rotor, blade: &BladeLoads<S>) {
+/// Writes force and moment on the hub, in the ground frame and in the hub frame.
+fn write_forces_and_moments<S: Scalar>(
+    reals: &mut Reals<S>,
+    hub: &HubLoads<S>,
+    hub_to_ground: &Matrix3<S>,
+) {
+    let force = hub_to_ground * hub.force;
+    let moment = hub_to_ground * hub.moment;
+    for (references, vector) in [
+        ([real::FORCE_1, real::FORCE_2, real::FORCE_3], force),
+        ([real::MOMENT_1, real::MOMENT_2, real::MOMENT_3], moment),
+        (
+            [real::HUB_FORCE_1, real::HUB_FORCE_2, real::HUB_FORCE_3],
+            hub.force,
+        ),
+        (
+            [real::HUB_MOMENT_1, real::HUB_MOMENT_2, real::HUB_MOMENT_3],
+            hub.moment,
+        ),
+    ] {
+        for (reference, component) in references.into_iter().zip(vector.iter()) {
+            reals[reference] = *component;
+        }
+    }
+}
+
+/// Writes the quantities over tip speed and disc area. All are 0 at standstill.
+fn write_coefficients<S: Scalar>(
+    reals: &mut Reals<S>,
+    hub: &HubLoads<S>,
+    point: &OperatingPoint<S>,
+    radius: f64,
+) {
+    let tip_speed = point.speed.abs() * radius;
+    let reference_force = point.air.density * PI * radius * radius * tip_speed * tip_speed;
+    let per = |quantity: S, reference: S| {
+        if tip_speed.value() > STANDSTILL {
+            quantity / reference
+        } else {
+            S::zero()
+        }
+    };
+    let thrust_coefficient = per(hub.force.z, reference_force);
+    let torque_coefficient = per(hub.torque, reference_force * radius);
+    reals[real::THRUST_COEFFICIENT] = thrust_coefficient;
+    reals[real::TORQUE_COEFFICIENT] = torque_coefficient;
+    // CP = CQ in this convention. A rotor that turns backwards changes the sign.
+    reals[real::POWER_COEFFICIENT] = torque_coefficient * point.speed.value().signum();
+    reals[real::FIGURE_OF_MERIT] =
+        if thrust_coefficient.value() > 0.0 && torque_coefficient.value() > 0.0 {
+            thrust_coefficient * thrust_coefficient.sqrt() / (torque_coefficient * SQRT_2)
+        } else {
+            S::zero()
+        };
+    let airspeed = &point.airspeed;
+    reals[real::INFLOW_RATIO] = per(airspeed.z + hub.induced_velocity, tip_speed);
+    reals[real::ADVANCE_RATIO] = per(airspeed.x.hypot(airspeed.y), tip_speed);
+}
+
+/// Writes the stations along the blade, which are the middles of equal parts from cutout to tip.
+fn write_stations<S: Scalar>(reals: &mut Reals<S>, rotor: &Rotor, blade: &BladeLoads<S>) {
     let geometry = rotor.geometry();
     let (cutout, blades) = (geometry.cutout(), f64::from(geometry.blades));
     for i in 0..STATIONS {
         let part = (i as f64 + 0.5) / STATIONS as f64;
         let radius = cutout + part * (1.0 - cutout);
         let load = blade.at(radius);
-        for (places, value) in [
+        for (references, value) in [
             (real::STATION__RADIUS, S::constant(radius)),
             (real::STATION__ANGLE_OF_ATTACK, load.angle_of_attack),
             (real::STATION__LIFT_COEFFICIENT, load.lift_coefficient),
@@ -109,7 +139,7 @@ pub fn write_stations<S: Scalar>(reals: &mut Reals<S>, rotor: &Rotor, blade: &Bl
             (real::STATION__MACH, load.mach),
             (real::STATION__THRUST_PER_LENGTH, load.thrust / blades),
         ] {
-            reals[places[i]] = value;
+            reals[references[i]] = value;
         }
     }
 }

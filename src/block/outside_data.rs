@@ -2,7 +2,7 @@
 
 use rotor::{BladeLoads, Rotor, airfoil::Axis};
 
-/// Which of the two sentences have been logged.
+/// Which of the two sentences, on Reynolds and on Mach numbers, have been logged.
 #[derive(Debug, Default)]
 pub struct OutsideDataNotice {
     reynolds: bool,
@@ -10,18 +10,18 @@ pub struct OutsideDataNotice {
 }
 
 impl OutsideDataNotice {
-    /// The sentence for these loads, if it has not been logged before: at most one on Reynolds and
-    /// one on Mach numbers. Allocates only for a sentence.
+    /// The sentence for these loads, unless it has been logged before. Allocates only if it returns
+    /// one.
     pub fn next(&mut self, rotor: &Rotor, blade: &BladeLoads) -> Option<String> {
-        for (axis, is_said) in [
+        for (axis, is_logged) in [
             (Axis::Reynolds, &mut self.reynolds),
             (Axis::Mach, &mut self.mach),
         ] {
-            if *is_said {
+            if *is_logged {
                 continue;
             }
             if let Some(found) = rotor.outside_data(blade.elements(), axis) {
-                *is_said = true;
+                *is_logged = true;
                 let (name, digits, drag) = match axis {
                     Axis::Reynolds => ("Reynolds", 0, " (drag: see airfoil.dragReynoldsExponent)"),
                     Axis::Mach => ("Mach", 3, ""),
@@ -35,7 +35,7 @@ impl OutsideDataNotice {
                     }
                 };
                 return Some(format!(
-                    "{name} numbers {} at the blades, but {} in the airfoil file of {:?}: the nearest are used beyond them{drag}; this is said once",
+                    "{name} numbers {} at the blades, but {} in the airfoil file of {:?}; outside its range the nearest data are used{drag}; this is said once",
                     shown(found.met),
                     shown(found.file),
                     found.airfoil.name()

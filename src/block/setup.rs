@@ -1,6 +1,8 @@
-//! From the parameters to a rotor: geometry, airfoils and the choice of models.
+//! From the parameters to a rotor: its geometry, its airfoils and its models. Each choice among the
+//! parameters is mapped to the physics here.
 
 use super::{
+    airfoils::read_airfoils,
     location::resolve,
     values::Values,
     variables::{
@@ -11,7 +13,7 @@ use super::{
 };
 use rotor::{
     Blades, Models, Rotor, Start,
-    airfoil::{Airfoil, AirfoilError, Lift, SectionModel},
+    airfoil::{AirfoilError, Lift, SectionModel},
     compressibility::Compressibility,
     flapping::{Freedom, Hinge},
     geometry::{self, Elements, Geometry, GeometryError, RotorFileError},
@@ -22,7 +24,7 @@ use rotor::{
 use std::path::Path;
 use thiserror::Error;
 
-/// Why the parameters make no rotor.
+/// Why no rotor can be made from the parameters.
 #[derive(Debug, Error, Clone, PartialEq)]
 pub enum SetupError {
     #[error("airfoil.file = {name:?}: {cause}")]
@@ -36,117 +38,49 @@ pub enum SetupError {
     #[error(
         "models.lift = slopesByReynolds, but the airfoil file {airfoil:?} ({parameter}) has no lift slopes; set {parameter} to a Modelica CombiTable file such as airfoils/naca0015.txt, or models.lift to table or twoPi"
     )]
-    NoLaws {
+    NoLiftSlopes {
         airfoil: String,
         parameter: &'static str,
     },
     #[error("geometry.file = {name:?}: {cause}")]
     RotorFile { name: String, cause: RotorFileError },
-    #[error("the geometry parameters make no rotor: {0}; change them or set geometry.file")]
+    #[error("the geometry parameters describe no rotor: {0}; change them or set geometry.file")]
     Geometry(GeometryError),
     #[error(
         "flapping.enabled = true with {blades} blades: at most {MAX_FLAPPING_BLADES} can flap; set fewer blades, or flapping.enabled to false"
     )]
-    TooManyToFlap { blades: u32 },
+    TooManyFlappingBlades { blades: u32 },
     #[error(
-        "flapping.enabled = true with models.blades = disc: a mean over a turn has no blade to flap; set models.blades to automatic or individual"
+        "flapping.enabled = true with models.blades = disc: the average over one revolution has no blades that could flap; set models.blades to automatic or individual"
     )]
     DiscCannotFlap,
     #[error(
-        "flapping.enabled = true with models.inflow = annulusClosedForm, which knows axial flow past rigid blades only; set another inflow model, or flapping.enabled to false"
+        "flapping.enabled = true with models.inflow = annulusClosedForm, which holds for axial flow past rigid blades only; set another inflow model, or flapping.enabled to false"
     )]
     ClosedFormCannotFlap,
     #[error(
-        "models.groundEffect with models.inflow = annulusClosedForm, which knows free air only; set another inflow model, or models.groundEffect to none"
+        "models.groundEffect with models.inflow = annulusClosedForm, which holds in free air only; set another inflow model, or models.groundEffect to none"
     )]
-    ClosedFormKnowsNoGround,
-    #[error("{name} holds the value {value}, which is no choice")]
+    ClosedFormNearGround,
+    #[error("{name} = {value}, which is not the number of a choice; set one of its choices")]
     Choice { name: &'static str, value: i32 },
 }
 
 /// The rotor that the parameters describe, and a sentence for every file that was read.
 pub fn rotor(values: &Values, resources: &Path) -> Result<(Rotor, Vec<String>), SetupError> {
     let mut notes = Vec::new();
-    let geometry = shape(values, resources, &mut notes)?;
-    let standard = values.strings[string::AIRFOIL__FILE].as_str();
-    let lift = choice(values, integer::MODELS__LIFT, LiftModel::from_integer)?;
-    let mut airfoils = Vec::with_capacity(geometry.airfoils.len());
-    for station_airfoil in &geometry.airfoils {
-        let own = !station_airfoil.is_empty();
-        let name = if own { station_airfoil } else { standard };
-        let path = resolve(resources, "airfoils", name);
-        let airfoil = Airfoil::read(&path).map_err(|cause| {
-            if own {
-                SetupError::StationAirfoil {
-                    name: values.strings[string::GEOMETRY__FILE].clone(),
-                    airfoil: name.to_owned(),
-                    cause,
-                }
-            } else {
-                SetupError::Airfoil {
-                    name: name.to_owned(),
-                    cause,
-                }
-            }
-        })?;
-        if lift == LiftModel::SlopesByReynolds && !airfoil.has_laws() {
-            return Err(SetupError::NoLaws {
-                airfoil: name.to_owned(),
-                parameter: if own {
-                    "a station's airfoil in geometry.file"
-                } else {
-                    "airfoil.file"
-                },
-            });
-        }
-        notes.push(format!(
-            "read airfoil {:?} from {}",
-            airfoil.name(),
-            path.display()
-        ));
-        airfoils.push(airfoil);
-    }
-    // The range check of the table keeps the number of elements positive.
+    let geometry = geometry(values, resources, &mut notes)?;
+    let section = section(values)?;
+    let airfoils = read_airfoils(values, &geometry, section.lift, resources, &mut notes)?;
+    // The range of the variable keeps the number of elements positive.
     let count = values.integers[integer::NUMERICS__ELEMENTS].max(1) as usize;
     let elements = Elements::new(&geometry, count);
-    let models = models(values, &geometry, &elements)?;
+    let models = models(values, &geometry, &elements, section)?;
     Ok((Rotor::new(geometry, elements, airfoils, models), notes))
 }
 
-/// How the blades are held, and whether they can be as the other models have it.
-fn hinge(
-    values: &Values,
-    geometry: &Geometry,
-    inflow: &Inflow,
-    blades: Blades,
-) -> Result<Hinge, SetupError> {
-    let reals = &values.reals;
-    let offset = reals[real::FLAPPING__HINGE_OFFSET] * geometry.radius;
-    let freedom = values.booleans[boolean::FLAPPING__ENABLED].then(|| Freedom {
-        inertia: reals[real::FLAPPING__INERTIA],
-        pitch_flap: libm::tan(reals[real::FLAPPING__DELTA3]),
-        length: geometry.radius - offset,
-    });
-    if freedom.is_some() {
-        if geometry.blades as usize > MAX_FLAPPING_BLADES {
-            let blades = geometry.blades;
-            return Err(SetupError::TooManyToFlap { blades });
-        }
-        if blades == Blades::Disc {
-            return Err(SetupError::DiscCannotFlap);
-        }
-        if inflow.is_axial_only() {
-            return Err(SetupError::ClosedFormCannotFlap);
-        }
-    }
-    Ok(Hinge {
-        offset,
-        precone: reals[real::FLAPPING__PRECONE],
-        freedom,
-    })
-}
-
-fn shape(
+/// The geometry in the rotor file or, without one, that of the geometry parameters.
+fn geometry(
     values: &Values,
     resources: &Path,
     notes: &mut Vec<String>,
@@ -178,8 +112,33 @@ fn shape(
     Ok(geometry)
 }
 
-fn models(values: &Values, geometry: &Geometry, elements: &Elements) -> Result<Models, SetupError> {
-    let inflow = match choice(values, integer::MODELS__INFLOW, InflowModel::from_integer)? {
+/// The models that the parameters choose. Fails if they cannot be combined.
+fn models(
+    values: &Values,
+    geometry: &Geometry,
+    elements: &Elements,
+    section: SectionModel,
+) -> Result<Models, SetupError> {
+    let inflow = inflow(values, geometry, elements)?;
+    let ground_effect = ground_effect(values)?;
+    if inflow.is_axial_only() && ground_effect != GroundEffect::None {
+        return Err(SetupError::ClosedFormNearGround);
+    }
+    let blades = blades(values)?;
+    Ok(Models {
+        hinge: hinge(values, geometry, &inflow, blades)?,
+        inflow,
+        descent: descent(values)?,
+        ground_effect,
+        blades,
+        tip_loss: tip_loss(values)?,
+        section,
+    })
+}
+
+fn inflow(values: &Values, geometry: &Geometry, elements: &Elements) -> Result<Inflow, SetupError> {
+    let model = choice(values, integer::MODELS__INFLOW, InflowModel::from_integer)?;
+    Ok(match model {
         InflowModel::Annulus => Inflow::Elements(ElementInflow::Annulus),
         InflowModel::AnnulusClosedForm => Inflow::Elements(ElementInflow::AnnulusClosedForm),
         InflowModel::Uniform => Inflow::Linear(Skew::Uniform),
@@ -192,71 +151,117 @@ fn models(values: &Values, geometry: &Geometry, elements: &Elements) -> Result<M
         InflowModel::GlauertHighSpeed => Inflow::Linear(Skew::GlauertHighSpeed),
         InflowModel::FiniteBlades => Inflow::Elements(ElementInflow::FiniteBlades),
         InflowModel::PittPetersDynamic => Inflow::PittPetersDynamic,
-        // The range check of the table keeps the order positive.
+        // The range of the variable keeps the order positive.
         InflowModel::PetersHe => Inflow::peters_he(
             values.integers[integer::NUMERICS__INFLOW_ORDER].max(1) as usize,
             geometry.blades as usize,
             &elements.radius_ratios(geometry.radius),
         ),
-    };
-    let ground = choice(
+    })
+}
+
+fn descent(values: &Values) -> Result<Descent, SetupError> {
+    let model = choice(values, integer::MODELS__DESCENT, DescentModel::from_integer)?;
+    Ok(match model {
+        DescentModel::Momentum => Descent::Momentum,
+        DescentModel::Measured => Descent::Measured,
+        DescentModel::Johnson => Descent::Johnson,
+    })
+}
+
+fn ground_effect(values: &Values) -> Result<GroundEffect, SetupError> {
+    let model = choice(
         values,
         integer::MODELS__GROUND_EFFECT,
         GroundEffectModel::from_integer,
     )?;
-    let ground_effect = match ground {
+    Ok(match model {
         GroundEffectModel::None => GroundEffect::None,
         GroundEffectModel::CheesemanBennett => GroundEffect::CheesemanBennett,
         GroundEffectModel::Hayden => GroundEffect::Hayden,
-    };
-    if inflow.is_axial_only() && ground_effect != GroundEffect::None {
-        return Err(SetupError::ClosedFormKnowsNoGround);
-    }
-    let blades = match choice(values, integer::MODELS__BLADES, BladesModel::from_integer)? {
+    })
+}
+
+fn blades(values: &Values) -> Result<Blades, SetupError> {
+    let model = choice(values, integer::MODELS__BLADES, BladesModel::from_integer)?;
+    Ok(match model {
         BladesModel::Automatic => Blades::Automatic,
         BladesModel::Disc => Blades::Disc,
         BladesModel::Individual => Blades::Individual,
-    };
-    Ok(Models {
-        hinge: hinge(values, geometry, &inflow, blades)?,
-        inflow,
-        descent: match choice(values, integer::MODELS__DESCENT, DescentModel::from_integer)? {
-            DescentModel::Momentum => Descent::Momentum,
-            DescentModel::Measured => Descent::Measured,
-            DescentModel::Johnson => Descent::Johnson,
+    })
+}
+
+fn tip_loss(values: &Values) -> Result<TipLoss, SetupError> {
+    let model = choice(
+        values,
+        integer::MODELS__TIP_LOSS,
+        TipLossModel::from_integer,
+    )?;
+    Ok(match model {
+        TipLossModel::None => TipLoss::None,
+        TipLossModel::Prandtl => TipLoss::Prandtl,
+        TipLossModel::PrandtlTipAndRoot => TipLoss::PrandtlTipAndRoot,
+        // Both authors have the same formula.
+        TipLossModel::GessowMyers | TipLossModel::Wheatley => TipLoss::HalfTipChord,
+        TipLossModel::Sissingh => TipLoss::Sissingh,
+        TipLossModel::PrandtlThrust => TipLoss::PrandtlThrust,
+    })
+}
+
+/// How section coefficients are made from the airfoil data.
+fn section(values: &Values) -> Result<SectionModel, SetupError> {
+    let lift = choice(values, integer::MODELS__LIFT, LiftModel::from_integer)?;
+    let compressibility = choice(
+        values,
+        integer::MODELS__COMPRESSIBILITY,
+        CompressibilityModel::from_integer,
+    )?;
+    Ok(SectionModel {
+        lift: match lift {
+            LiftModel::Table => Lift::Table,
+            LiftModel::TwoPi => Lift::TwoPi,
+            LiftModel::SlopesByReynolds => Lift::SlopesByReynolds,
         },
-        ground_effect,
-        blades,
-        tip_loss: match choice(
-            values,
-            integer::MODELS__TIP_LOSS,
-            TipLossModel::from_integer,
-        )? {
-            TipLossModel::None => TipLoss::None,
-            TipLossModel::Prandtl => TipLoss::Prandtl,
-            TipLossModel::PrandtlTipAndRoot => TipLoss::PrandtlTipAndRoot,
-            TipLossModel::GessowMyers | TipLossModel::Wheatley => TipLoss::HalfTipChord,
-            TipLossModel::Sissingh => TipLoss::Sissingh,
-            TipLossModel::PrandtlThrust => TipLoss::PrandtlThrust,
+        compressibility: match compressibility {
+            CompressibilityModel::None => Compressibility::None,
+            CompressibilityModel::PrandtlGlauert => Compressibility::PrandtlGlauert,
+            CompressibilityModel::KarmanTsien => Compressibility::KarmanTsien,
+            CompressibilityModel::Laitone => Compressibility::Laitone,
         },
-        section: SectionModel {
-            lift: match choice(values, integer::MODELS__LIFT, LiftModel::from_integer)? {
-                LiftModel::Table => Lift::Table,
-                LiftModel::TwoPi => Lift::TwoPi,
-                LiftModel::SlopesByReynolds => Lift::SlopesByReynolds,
-            },
-            compressibility: match choice(
-                values,
-                integer::MODELS__COMPRESSIBILITY,
-                CompressibilityModel::from_integer,
-            )? {
-                CompressibilityModel::None => Compressibility::None,
-                CompressibilityModel::PrandtlGlauert => Compressibility::PrandtlGlauert,
-                CompressibilityModel::KarmanTsien => Compressibility::KarmanTsien,
-                CompressibilityModel::Laitone => Compressibility::Laitone,
-            },
-            drag_reynolds_exponent: values.reals[real::AIRFOIL__DRAG_REYNOLDS_EXPONENT],
-        },
+        drag_reynolds_exponent: values.reals[real::AIRFOIL__DRAG_REYNOLDS_EXPONENT],
+    })
+}
+
+/// How the blades are held. Fails if they flap and the other models do not allow it.
+fn hinge(
+    values: &Values,
+    geometry: &Geometry,
+    inflow: &Inflow,
+    blades: Blades,
+) -> Result<Hinge, SetupError> {
+    let reals = &values.reals;
+    let offset = reals[real::FLAPPING__HINGE_OFFSET] * geometry.radius;
+    let freedom = values.booleans[boolean::FLAPPING__ENABLED].then(|| Freedom {
+        inertia: reals[real::FLAPPING__INERTIA],
+        pitch_flap: libm::tan(reals[real::FLAPPING__DELTA3]),
+        length: geometry.radius - offset,
+    });
+    if freedom.is_some() {
+        if geometry.blades as usize > MAX_FLAPPING_BLADES {
+            let blades = geometry.blades;
+            return Err(SetupError::TooManyFlappingBlades { blades });
+        }
+        if blades == Blades::Disc {
+            return Err(SetupError::DiscCannotFlap);
+        }
+        if inflow.is_axial_only() {
+            return Err(SetupError::ClosedFormCannotFlap);
+        }
+    }
+    Ok(Hinge {
+        offset,
+        precone: reals[real::FLAPPING__PRECONE],
+        freedom,
     })
 }
 
@@ -273,7 +278,7 @@ pub fn start(values: &Values) -> Result<Start, SetupError> {
     })
 }
 
-/// The enumeration's value behind an integer variable.
+/// The value of an enumeration variable as the Rust enumeration `T`.
 pub fn choice<T>(
     values: &Values,
     reference: IntegerRef,

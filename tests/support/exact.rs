@@ -19,12 +19,12 @@ pub fn outputs_and_rates() -> Vec<RealRef> {
     RealRef::all().filter(is_unknown).collect()
 }
 
-/// A change of a known that counts as one: its order of magnitude.
-pub fn known_scale(place: RealRef) -> f64 {
-    if let Some(state) = STATES.iter().find(|row| row.value == place) {
+/// The order of magnitude of changes of a known.
+pub fn known_scale(reference: RealRef) -> f64 {
+    if let Some(state) = STATES.iter().find(|row| row.value == reference) {
         return state.nominal;
     }
-    match (place, place.variable().unit) {
+    match (reference, reference.variable().unit) {
         (real::ALTITUDE, _) => 1000.0,
         (_, "rad") => 0.1,
         (_, "rev/min") => 1000.0,
@@ -34,9 +34,9 @@ pub fn known_scale(place: RealRef) -> f64 {
     }
 }
 
-/// A change of an unknown that counts as one, at least.
-pub fn unknown_scale(place: RealRef) -> f64 {
-    match place.variable().unit {
+/// The smallest change of an unknown that counts as large.
+pub fn unknown_scale(reference: RealRef) -> f64 {
+    match reference.variable().unit {
         "N" | "N.m" | "W" => 1.0,
         "m/s2" | "rad/s2" => 1.0,
         "1" => 1e-4,
@@ -49,7 +49,7 @@ pub fn exact(block: &mut RotorBlock, unknowns: &[RealRef], known: RealRef) -> Ve
     exact_along(block, unknowns, known, 1.0)
 }
 
-/// The same times a seed, whose sign tells to which side of a corner the direction leads.
+/// The same times a seed. Its sign says to which side of a corner the direction points.
 pub fn exact_along(
     block: &mut RotorBlock,
     unknowns: &[RealRef],

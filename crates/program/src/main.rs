@@ -1,10 +1,12 @@
-//! The program: makes `HelicopterRotor.fmu`, flies it in FMPy beside measurements, and writes the
-//! page of how well.
+//! The program: makes `HelicopterRotor.fmu`, compares it with measurements in FMPy, and writes the
+//! validation page.
 
+mod files;
 mod package;
-mod page;
 mod python;
+mod scripts;
 mod summary;
+mod validation;
 
 use clap::{Parser, Subcommand};
 use std::{
@@ -12,16 +14,19 @@ use std::{
     path::{Path, PathBuf},
     process::ExitCode,
 };
+use validation::Purpose;
 
-/// HelicopterRotor.fmu: a helicopter rotor as an FMI 2.0 FMU, for Co-Simulation and Model Exchange.
+/// Makes HelicopterRotor.fmu, a helicopter rotor as an FMI 2.0 FMU for Co-Simulation and Model
+/// Exchange.
 ///
 /// Without a command: makes target/fmu/HelicopterRotor.fmu, flies the rotors that Knight & Hefner
-/// measured in 1937 with it in FMPy, prints computed beside measured thrust and torque, and draws
-/// them. The Python packages for this go into an environment of their own under target/.
+/// measured in 1937 with it in FMPy, prints computed and measured thrust and torque, and plots them
+/// beside the FMU. FMPy and the other Python packages are installed into an environment of their
+/// own in target/python.
 #[derive(Parser)]
 #[command(version)]
 struct Arguments {
-    /// Put this built library into the FMU, instead of building one with cargo
+    /// Use this built library for the FMU and do not build one with cargo
     #[arg(long, global = true, value_name = "FILE")]
     library: Option<PathBuf>,
     #[command(subcommand)]
@@ -30,22 +35,24 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Only make the .fmu
+    /// Make the .fmu only
     Package {
-        /// Where to write it [default: target/fmu/HelicopterRotor.fmu]
+        /// The .fmu to write [default: target/fmu/HelicopterRotor.fmu]
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
-    /// Make the reference inputs and outputs anew, that an importer is checked against, and the
-    /// .fmu with them in it
+    /// Make the reference files against which importers are checked, and the .fmu that contains
+    /// them
     Reference,
     /// Fly every measured case with the FMU in FMPy, and write docs/validation.md, its figures and
-    /// the README's summary
+    /// the summary in the README
     Validate {
-        /// Write nothing: compare them with what comes out now, within the last printed digit
+        /// Write none of these files: compare them with the new results, number by number within
+        /// the last printed digit
         #[arg(long)]
         check: bool,
-        /// Folder for errors.csv, element-times.csv and the page [default: target/validation]
+        /// Folder for the page, errors.csv and element-times.csv; its old content is removed
+        /// [default: target/validation]
         #[arg(long, value_name = "FOLDER")]
         out: Option<PathBuf>,
     },
@@ -63,9 +70,9 @@ impl fmt::Display for Failure {
     }
 }
 
-/// Adds what was being done to an error.
-pub fn failed<E: fmt::Display>(what: impl fmt::Display) -> impl FnOnce(E) -> Failure {
-    move |error| Failure(format!("{what}: {error}"))
+/// Puts a sentence in front of an error: what was not possible.
+pub fn failed<E: fmt::Display>(sentence: impl fmt::Display) -> impl FnOnce(E) -> Failure {
+    move |error| Failure(format!("{sentence}: {error}"))
 }
 
 /// The source tree that this program was built from.
@@ -95,24 +102,24 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
         Some(Command::Reference) => {
             let library = library()?;
             make_fmu(&default_fmu, &library)?;
-            python::make_reference_flights(&default_fmu, &target)?;
+            scripts::make_reference_flights(&default_fmu, &target)?;
             make_fmu(&default_fmu, &library)?;
         }
         Some(Command::Validate { check, out }) => {
             let purpose = if check {
-                page::Purpose::Check
+                Purpose::Check
             } else {
-                page::Purpose::Write
+                Purpose::Write
             };
             let out = out.unwrap_or_else(|| target.join("validation"));
-            page::run(&out, &library()?, &target, purpose)?;
+            validation::run(&out, &library()?, &target, purpose)?;
         }
         Some(Command::Python) => {
             println!("{}", python::environment(&target)?.display());
         }
         None => {
             make_fmu(&default_fmu, &library()?)?;
-            python::fly_knight_hefner(&default_fmu, &target)?;
+            scripts::fly_knight_hefner(&default_fmu, &target)?;
         }
     }
     Ok(())
@@ -124,13 +131,11 @@ fn make_fmu(file: &Path, library: &Path) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Cargo's target folder, in which the program itself lies as `target/<profile>/<program>`.
+/// Cargo's target folder, which contains this program as `target/<profile>/<program>`.
 fn target_folder() -> Result<PathBuf, Failure> {
     let program = std::env::current_exe().map_err(failed("cannot find this program's own file"))?;
     let folder = program.parent().and_then(Path::parent);
     folder.map(Path::to_path_buf).ok_or_else(|| {
-        Failure(
-            "this program lies outside of cargo's target folder; run it with `cargo run`".into(),
-        )
+        Failure("this program is not in a target folder of cargo; run it with `cargo run`".into())
     })
 }

@@ -1,113 +1,79 @@
-//! The Python environment of the examples and of validation/: a venv under the target folder, made
-//! once for each content of fmu-examples/requirements.txt.
+//! The Python environment of the examples and of validation/: a virtual environment in the target
+//! folder, made again when fmu-examples/requirements.txt changes.
 
-use crate::{Failure, failed, sources};
+use crate::{
+    Failure, failed,
+    files::{make_folder, read_text},
+    scripts::examples,
+};
 use indicatif::ProgressBar;
 use std::{
     fs::{self, File},
     path::{Path, PathBuf},
-    process::{Command, Output},
+    process::Command,
     time::Duration,
 };
 
-/// The examples' folder, in the source tree that this program was built from.
-pub fn examples() -> PathBuf {
-    sources().join("fmu-examples")
-}
-
-/// Path of the environment's interpreter; makes the environment if it is not there, or not there
-/// with the present requirements.
+/// The path of the environment's interpreter. Makes the environment if it is missing or was made
+/// from other requirements.
 pub fn environment(target: &Path) -> Result<PathBuf, Failure> {
     let folder = target.join("python");
     let interpreter = folder.join("bin").join("python");
-    let stamp = folder.join("requirements.txt");
+    let installed = folder.join("requirements.txt");
     let requirements = examples().join("requirements.txt");
-    let wanted = fs::read_to_string(&requirements)
-        .map_err(failed(format!("cannot read {}", requirements.display())))?;
+    let wanted = read_text(&requirements)?;
 
-    // One process makes it, others wait for it.
-    fs::create_dir_all(target).map_err(failed(format!("cannot make {}", target.display())))?;
-    let lock_path = target.join("python.lock");
-    let lock =
-        File::create(&lock_path).map_err(failed(format!("cannot make {}", lock_path.display())))?;
-    lock.lock()
-        .map_err(failed(format!("cannot lock {}", lock_path.display())))?;
-    if fs::read_to_string(&stamp).is_ok_and(|found| found == wanted) && interpreter.is_file() {
+    let _lock = lock(target)?;
+    let is_current = fs::read_to_string(&installed).is_ok_and(|found| found == wanted);
+    if is_current && interpreter.is_file() {
         return Ok(interpreter);
     }
-
-    let python = system_python()?;
-    let spinner = ProgressBar::new_spinner();
-    spinner.enable_steady_tick(Duration::from_millis(120));
-    spinner.set_message("making the Python environment (once) ...");
-    if folder.exists() {
-        fs::remove_dir_all(&folder)
-            .map_err(failed(format!("cannot replace {}", folder.display())))?;
-    }
-    succeed(
-        Command::new(python).args(["-m", "venv"]).arg(&folder),
-        "cannot make a Python environment; on Debian or Ubuntu, install the package python3-venv",
-    )?;
-    spinner.set_message("installing FMPy, Matplotlib and SciPy into it (once, about a minute) ...");
-    succeed(
-        Command::new(&interpreter)
-            .args([
-                "-m",
-                "pip",
-                "install",
-                "--quiet",
-                "--disable-pip-version-check",
-                "-r",
-            ])
-            .arg(&requirements),
-        "cannot install the Python packages in fmu-examples/requirements.txt; is PyPI within reach?",
-    )?;
-    // Written last: an environment without it is made anew.
-    fs::write(&stamp, wanted).map_err(failed(format!("cannot write {}", stamp.display())))?;
-    spinner.finish_and_clear();
+    make(&folder, &interpreter, &requirements)?;
+    // Written last: an environment without this file is not complete and is made again.
+    fs::write(&installed, wanted)
+        .map_err(failed(format!("cannot write {}", installed.display())))?;
     Ok(interpreter)
 }
 
-/// Flies Knight & Hefner's rotors through their measured range of pitch; the script prints the
-/// table and writes the plot beside the FMU.
-pub fn fly_knight_hefner(fmu: &Path, target: &Path) -> Result<(), Failure> {
-    let folder = fmu.parent().unwrap_or(Path::new("."));
-    run(target, &examples().join("knight_hefner.py"), fmu, folder)
+/// Waits until no other process makes the environment. The lock ends when it is dropped.
+fn lock(target: &Path) -> Result<File, Failure> {
+    make_folder(target)?;
+    let path = target.join("python.lock");
+    let file = File::create(&path).map_err(failed(format!("cannot make {}", path.display())))?;
+    file.lock()
+        .map_err(failed(format!("cannot lock {}", path.display())))?;
+    Ok(file)
 }
 
-/// Makes the reference inputs and outputs of a few flights, against which an importer is checked:
-/// writes the files of the source tree, those that travel in the FMU and those in the form of the
-/// FMI cross-check.
-pub fn make_reference_flights(fmu: &Path, target: &Path) -> Result<(), Failure> {
-    let script = sources().join("reference-flights").join("make.py");
-    run(target, &script, fmu, sources())
-}
-
-/// Runs a script that flies an FMU and writes into a folder; its words go to the terminal.
-fn run(target: &Path, script: &Path, fmu: &Path, out: &Path) -> Result<(), Failure> {
-    let interpreter =
-        environment(target).map_err(failed("the .fmu is made, but it cannot be flown here"))?;
-    let mut command = Command::new(interpreter);
-    let status = command
-        .arg(script)
-        .arg("--fmu")
-        .arg(fmu)
-        .arg("--out")
-        .arg(out)
-        .status()
-        .map_err(failed(format!("cannot run {}", script.display())))?;
-    if status.success() {
-        return Ok(());
+/// Makes the environment in a folder and installs the requirements.
+fn make(folder: &Path, interpreter: &Path, requirements: &Path) -> Result<(), Failure> {
+    let python = system_python()?;
+    let spinner = ProgressBar::new_spinner();
+    spinner.enable_steady_tick(Duration::from_millis(120));
+    spinner.set_message("making the Python environment (only once) ...");
+    if folder.exists() {
+        fs::remove_dir_all(folder)
+            .map_err(failed(format!("cannot replace {}", folder.display())))?;
     }
-    Err(Failure(format!(
-        "{} failed ({status}); its own words stand above",
-        script.display()
-    )))
+    run_quietly(
+        Command::new(python).args(["-m", "venv"]).arg(folder),
+        "cannot make a Python environment; on Debian or Ubuntu, install the package python3-venv",
+    )?;
+    spinner.set_message("installing FMPy, Matplotlib and SciPy (only once, about a minute) ...");
+    run_quietly(
+        Command::new(interpreter)
+            .args(["-m", "pip", "install", "--quiet"])
+            .args(["--disable-pip-version-check", "-r"])
+            .arg(requirements),
+        "cannot install the Python packages in fmu-examples/requirements.txt; check the connection to PyPI",
+    )?;
+    spinner.finish_and_clear();
+    Ok(())
 }
 
 /// The name of an interpreter of version 3.10 or later.
 fn system_python() -> Result<&'static str, Failure> {
-    const NEEDED: &str = "python3 (3.10 or later) is missing, which flies the FMU in FMPy";
+    const MISSING: &str = "python3 (3.10 or later) is missing, in which FMPy flies the FMU";
     let check = "import sys; print(sys.version.split()[0]); sys.exit(sys.version_info < (3, 10))";
     let found = Command::new("python3").args(["-c", check]).output();
     match found {
@@ -115,24 +81,24 @@ fn system_python() -> Result<&'static str, Failure> {
         Ok(output) => {
             let version = String::from_utf8_lossy(&output.stdout).trim().to_owned();
             Err(Failure(format!(
-                "{NEEDED}; the one on the PATH is {version}"
+                "{MISSING}; the one on the PATH is {version}; install a later one and run this again"
             )))
         }
         Err(error) => Err(Failure(format!(
-            "{NEEDED} ({error}); install it and run this again"
+            "{MISSING} ({error}); install it and run this again"
         ))),
     }
 }
 
-/// Runs a command to its end; its own words are shown only if it fails.
-fn succeed(command: &mut Command, what: &str) -> Result<Output, Failure> {
-    let output = command.output().map_err(failed(what))?;
+/// Runs a command. If it fails, the error is `sentence` followed by the output of the command.
+fn run_quietly(command: &mut Command, sentence: &str) -> Result<(), Failure> {
+    let output = command.output().map_err(failed(sentence))?;
     if output.status.success() {
-        return Ok(output);
+        return Ok(());
     }
     let words = [output.stdout.as_slice(), output.stderr.as_slice()].concat();
     Err(Failure(format!(
-        "{what}\n{}",
+        "{sentence}\n{}",
         String::from_utf8_lossy(&words).trim()
     )))
 }

@@ -1,8 +1,8 @@
-//! The summary of how well the model does, which stands in the README between two marks: the
-//! validation writes it there, and the FMU's own documentation shows it.
+//! The summary of the model's accuracy, a Markdown table between two marks in the README. The
+//! validation writes it there, and the documentation in the FMU shows it.
 
-use crate::{Failure, failed, sources};
-use std::{fs, path::PathBuf};
+use crate::{Failure, files::read_text, sources};
+use std::path::PathBuf;
 
 const MARK: &str = "<!-- measured -->";
 
@@ -13,29 +13,24 @@ pub fn readme() -> PathBuf {
 
 /// The summary, a Markdown table.
 pub fn read() -> Result<String, Failure> {
-    let text = read_readme()?;
-    around(&text).map(|(_, summary, _)| summary.trim().to_owned())
+    let text = read_text(&readme())?;
+    split(&text).map(|(_, summary, _)| summary.trim().to_owned())
 }
 
-/// The README's text with another summary.
+/// The text of the README with a new summary.
 pub fn replaced(summary: &str) -> Result<String, Failure> {
-    let text = read_readme()?;
-    let (before, _, after) = around(&text)?;
+    let text = read_text(&readme())?;
+    let (before, _, after) = split(&text)?;
     Ok(format!("{before}{MARK}\n{}\n{MARK}{after}", summary.trim()))
 }
 
-fn read_readme() -> Result<String, Failure> {
-    let file = readme();
-    fs::read_to_string(&file).map_err(failed(format!("cannot read {}", file.display())))
-}
-
-/// The text before the summary, the summary, and what comes after.
-fn around(text: &str) -> Result<(&str, &str, &str), Failure> {
+/// The text before the summary, the summary, and the text after it.
+fn split(text: &str) -> Result<(&str, &str, &str), Failure> {
     let mut parts = text.split(MARK);
     match (parts.next(), parts.next(), parts.next(), parts.next()) {
         (Some(before), Some(summary), Some(after), None) => Ok((before, summary, after)),
         _ => Err(Failure(format!(
-            "README.md must have two lines `{MARK}`, between which the summary of the validation stands"
+            "README.md must have exactly two lines `{MARK}`; put them before and after the summary of the validation"
         ))),
     }
 }
@@ -47,7 +42,7 @@ pub fn html(table: &str) -> String {
     if let Some(header) = rows.next() {
         html += &row(&header, "th");
     }
-    // The second line only says which columns stand to the right.
+    // The second line only gives the alignment of the columns.
     for cells in rows.skip(1) {
         html += &row(&cells, "td");
     }
@@ -56,11 +51,14 @@ pub fn html(table: &str) -> String {
 
 fn cells(line: &str) -> Vec<String> {
     let inner = line.trim().trim_matches('|');
-    inner.split('|').map(|cell| text(cell.trim())).collect()
+    inner
+        .split('|')
+        .map(|cell| cell_html(cell.trim()))
+        .collect()
 }
 
-/// A cell's text, in which every other backtick begins code.
-fn text(cell: &str) -> String {
+/// The HTML of a cell. Text between two backticks is code.
+fn cell_html(cell: &str) -> String {
     let escaped = cell
         .replace('&', "&amp;")
         .replace('<', "&lt;")
@@ -99,10 +97,10 @@ mod tests {
     }
 
     #[test]
-    fn the_summary_stands_between_two_marks() {
+    fn the_summary_is_the_text_between_two_marks() {
         let text = format!("a\n{MARK}\nold\n{MARK}\nb");
-        assert_eq!(around(&text).unwrap(), ("a\n", "\nold\n", "\nb"));
-        assert!(around("no mark").is_err());
-        assert!(around(&format!("{MARK}{MARK}{MARK}")).is_err());
+        assert_eq!(split(&text).unwrap(), ("a\n", "\nold\n", "\nb"));
+        assert!(split("no mark").is_err());
+        assert!(split(&format!("{MARK}{MARK}{MARK}")).is_err());
     }
 }

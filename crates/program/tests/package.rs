@@ -1,4 +1,4 @@
-//! The archive: what is in it, and that it appears whole or not at all.
+//! The archive: its content, and that an error leaves no incomplete file.
 
 mod support;
 
@@ -8,16 +8,14 @@ use std::{
     fs::{self, File},
     io::Read,
     path::{Path, PathBuf},
-    process::{Command, Output},
+    process::Command,
 };
 
-fn package(out: &Path) -> Output {
-    support::program()
-        .arg("package")
-        .arg("--out")
-        .arg(out)
-        .output()
-        .unwrap()
+/// The command that writes the .fmu.
+fn package(out: &Path) -> Command {
+    let mut command = support::program();
+    command.args(["package", "--out"]).arg(out);
+    command
 }
 
 fn scratch(name: &str) -> PathBuf {
@@ -84,24 +82,26 @@ fn the_archive_holds_what_an_importer_and_a_reader_expect() {
     ] {
         assert!(page.contains(name), "the page has no {name}");
     }
-    assert!(!page.contains("<!--"), "a place in the page was left empty");
+    assert!(
+        !page.contains("<!--"),
+        "a mark in the page was not replaced"
+    );
 }
 
 #[test]
 fn the_same_content_makes_the_same_archive() {
     let (one, other) = (scratch("same-1.fmu"), scratch("same-2.fmu"));
-    assert!(package(&one).status.success() && package(&other).status.success());
+    support::succeed(&mut package(&one));
+    support::succeed(&mut package(&other));
     assert!(fs::read(one).unwrap() == fs::read(other).unwrap());
 }
 
 #[test]
-fn a_place_that_cannot_be_written_is_named_and_nothing_is_left_behind() {
+fn an_output_that_cannot_be_written_is_named_and_leaves_no_files() {
     let folder = scratch("a-folder-in-the-way.fmu");
     fs::create_dir_all(folder.join("inside")).unwrap();
-    let output = package(&folder);
-    assert!(!output.status.success());
-    let words = String::from_utf8_lossy(&output.stderr);
-    assert!(words.contains("a-folder-in-the-way.fmu"), "{words}");
+    let message = support::fail(&mut package(&folder));
+    assert!(message.contains("a-folder-in-the-way.fmu"), "{message}");
     let left_over = fs::read_dir(folder.parent().unwrap())
         .unwrap()
         .any(|entry| {
@@ -111,7 +111,8 @@ fn a_place_that_cannot_be_written_is_named_and_nothing_is_left_behind() {
     assert!(!left_over);
 }
 
-/// Without them an importer must take every output to depend on everything, which makes loops.
+/// Without dependencies an importer must assume that every output depends on all inputs, which
+/// makes algebraic loops.
 #[test]
 fn every_unknown_of_the_model_structure_states_its_dependencies() {
     let files = content(support::packaged_fmu());
@@ -128,7 +129,7 @@ fn every_unknown_of_the_model_structure_states_its_dependencies() {
     let states = with("Real")
         .filter(|node| node.has_attribute("derivative"))
         .count();
-    // Among the outputs is one state, the azimuth.
+    // One of the outputs, the azimuth, is a state.
     assert_eq!(
         unknowns.len(),
         outputs + states + (outputs + 2 * states - 1)
@@ -140,19 +141,13 @@ fn every_unknown_of_the_model_structure_states_its_dependencies() {
 
 /// The crates that are linked into the library.
 fn linked_crates() -> Vec<String> {
-    let output = Command::new(env!("CARGO"))
+    let mut command = Command::new(env!("CARGO"));
+    command
         .current_dir(support::sources())
-        .args([
-            "tree",
-            "--offline",
-            "--locked",
-            "--package",
-            "helicopter-rotor",
-        ])
-        .args(["--edges", "normal,no-proc-macro", "--prefix", "none"])
-        .output()
-        .unwrap();
-    let tree = support::succeeded(&output);
+        .args(["tree", "--offline", "--locked"])
+        .args(["--package", "helicopter-rotor"])
+        .args(["--edges", "normal,no-proc-macro", "--prefix", "none"]);
+    let tree = support::succeed(&mut command);
     let names = tree.lines().filter_map(|l| l.split_whitespace().next());
     let ours = ["helicopter-rotor", "rotor"];
     names
@@ -161,23 +156,25 @@ fn linked_crates() -> Vec<String> {
         .collect()
 }
 
-/// What only the program needs is not in the FMU, and is not compiled for it.
 #[test]
-fn the_library_links_no_crate_of_the_host() {
+fn the_library_links_no_crate_of_the_program() {
     let linked = linked_crates();
     assert!(linked.contains(&"nalgebra".to_owned()));
-    for host in ["clap", "indicatif", "serde_json", "zip", "program"] {
-        assert!(!linked.contains(&host.to_owned()), "{host} is linked");
+    for of_program in ["clap", "indicatif", "serde_json", "zip", "program"] {
+        assert!(
+            !linked.contains(&of_program.to_owned()),
+            "{of_program} is linked"
+        );
     }
 }
 
-/// A locked package's version, without what stands behind a `+`.
+/// The version of a locked package, without the metadata after a `+`.
 fn version(package: &toml::Value) -> &str {
     let version = package["version"].as_str().unwrap();
     version.split('+').next().unwrap()
 }
 
-/// The licence file names each crate with the version that is linked.
+/// The licence file names every linked crate, with the linked version.
 #[test]
 fn the_third_party_licences_are_those_of_the_lock_file() {
     let root = support::sources();

@@ -1,4 +1,4 @@
-//! The program as a newcomer meets it.
+//! The program in its first use: its help, and its messages when something is missing.
 
 mod support;
 
@@ -9,7 +9,7 @@ use std::{
     process::Command,
 };
 
-/// The program in a target folder of its own, where no environment is made yet.
+/// A copy of the program in a new target folder, in which there is no Python environment yet.
 fn installed(name: &str) -> PathBuf {
     let folder = support::scratch().join(name).join("debug");
     fs::create_dir_all(&folder).unwrap();
@@ -32,30 +32,24 @@ fn library() -> PathBuf {
 }
 
 #[test]
-fn without_python_the_fmu_is_made_and_the_message_says_what_is_missing() {
+fn without_python_the_fmu_is_made_and_the_message_names_python() {
     let program = installed("no-python");
     let mut command = Command::new(&program);
     command.env("PATH", "").arg("--library").arg(library());
-    let output = command.output().unwrap();
-    let words = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.status.success());
+    let message = support::fail(&mut command);
     assert!(
-        words.contains("the .fmu is made") && words.contains("python3 (3.10 or later) is missing"),
-        "{words}"
+        message.contains("the .fmu is made")
+            && message.contains("python3 (3.10 or later) is missing"),
+        "{message}"
     );
-    let fmu = program
-        .parent()
-        .unwrap()
-        .parent()
-        .unwrap()
-        .join("fmu/HelicopterRotor.fmu");
+    let target = program.ancestors().nth(2).unwrap();
+    let fmu = target.join("fmu/HelicopterRotor.fmu");
     assert!(fmu.metadata().unwrap().len() > 10_000);
 }
 
 #[test]
 fn help_names_the_commands_and_what_happens_without_one() {
-    let output = support::program().arg("--help").output().unwrap();
-    let words = String::from_utf8_lossy(&output.stdout);
+    let help = support::succeed(support::program().arg("--help"));
     for part in [
         "package",
         "reference",
@@ -64,7 +58,7 @@ fn help_names_the_commands_and_what_happens_without_one() {
         "Without a command",
         "target/fmu/HelicopterRotor.fmu",
     ] {
-        assert!(words.contains(part), "{part} is missing in\n{words}");
+        assert!(help.contains(part), "{part} is missing in\n{help}");
     }
 }
 
@@ -73,18 +67,15 @@ fn without_cargo_the_message_says_what_to_do() {
     let program = installed("no-cargo");
     let mut command = Command::new(&program);
     command.env("PATH", "").env_remove("CARGO").arg("package");
-    let output = command.output().unwrap();
-    let words = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.status.success());
+    let message = support::fail(&mut command);
     assert!(
-        words.contains("cannot run cargo") && words.contains("--library"),
-        "{words}"
+        message.contains("cannot run cargo") && message.contains("--library"),
+        "{message}"
     );
 }
 
-/// A library of another description is another FMU's.
 #[test]
-fn a_library_that_is_not_this_fmus_is_refused() {
+fn a_library_of_another_fmu_is_refused() {
     let other = support::scratch().join("other.so");
     fs::write(&other, "not a library of this FMU").unwrap();
     let out = support::scratch().join("other.fmu");
@@ -95,11 +86,10 @@ fn a_library_that_is_not_this_fmus_is_refused() {
         .arg(&other)
         .arg("--out")
         .arg(&out);
-    let output = command.output().unwrap();
-    let words = String::from_utf8_lossy(&output.stderr);
-    assert!(!output.status.success() && !out.exists());
+    let message = support::fail(&mut command);
+    assert!(!out.exists());
     assert!(
-        words.contains("other.so was built from another modelDescription.xml"),
-        "{words}"
+        message.contains("other.so was built from another modelDescription.xml"),
+        "{message}"
     );
 }

@@ -1,5 +1,5 @@
-//! The reference files, against which an importer is checked: they are what the FMU computes today,
-//! they keep the rules of their formats, and what checks importers with them sees errors.
+//! The reference files, against which importers are checked: they agree with what the FMU computes,
+//! they keep the rules of their formats, and the check of importers detects errors.
 
 mod support;
 
@@ -8,28 +8,26 @@ use std::{
     fs,
     io::{Read, Write},
     path::Path,
-    process::{Command, Output},
+    process::Command,
 };
-use support::{packaged_fmu, python, scratch, sources, succeeded};
+use support::{fail, interpreter, packaged_fmu, python, scratch, sources, succeed};
 use zip::{ZipArchive, ZipWriter, write::SimpleFileOptions};
 
-const INSIDE: &str = "modelDescription/extra/org.fmi-standard.fmi-ls-ref";
-const BESIDE: &str = "reference-flights/cross-check";
+/// The folder of the files that travel in the FMU.
+const IN_THE_FMU: &str = "modelDescription/extra/org.fmi-standard.fmi-ls-ref";
+/// The folder of the files in the form of the FMI cross-check.
+const CROSS_CHECK: &str = "reference-flights/cross-check";
 
-fn check(fmu: &Path, arguments: &[&Path]) -> Output {
+/// The command that checks an importer.
+fn check(fmu: &Path, arguments: &[&Path]) -> Command {
     let mut command = python("fmu-examples/check_reference.py");
     command.arg("--fmu").arg(fmu).args(arguments);
-    command.output().unwrap()
+    command
 }
 
-/// What the check says when it fails.
-fn refusal(output: &Output) -> String {
-    assert!(
-        !output.status.success(),
-        "{}",
-        String::from_utf8_lossy(&output.stdout)
-    );
-    String::from_utf8_lossy(&output.stderr).into_owned()
+/// The judgement on the files in an FMU by the rules of their formats.
+fn judge_formats(fmu: &Path) -> String {
+    succeed(python("crates/program/tests/layered_standard.py").arg(fmu))
 }
 
 /// Name and values of each column.
@@ -48,7 +46,7 @@ fn columns(text: &str) -> Columns {
     columns
 }
 
-/// The inverse of `columns`.
+/// The text of a CSV file with these columns.
 fn csv(columns: &[(String, Vec<f64>)]) -> String {
     let mut table = csv::WriterBuilder::new();
     table.quote_style(csv::QuoteStyle::NonNumeric);
@@ -63,13 +61,14 @@ fn csv(columns: &[(String, Vec<f64>)]) -> String {
     String::from_utf8(table.into_inner().unwrap()).unwrap()
 }
 
+/// The largest magnitude.
 fn largest(values: &[f64]) -> f64 {
     values.iter().fold(0.0, |largest, v| largest.max(v.abs()))
 }
 
-/// The committed reference outputs by experiment.
+/// The committed reference outputs, by experiment.
 fn references() -> BTreeMap<String, Columns> {
-    let files = fs::read_dir(sources().join(INSIDE)).unwrap();
+    let files = fs::read_dir(sources().join(IN_THE_FMU)).unwrap();
     files
         .filter_map(|file| {
             let file = file.unwrap();
@@ -83,19 +82,16 @@ fn references() -> BTreeMap<String, Columns> {
         .collect()
 }
 
-/// The committed files are those that the command makes with today's FMU. The outputs may differ by
-/// a hundredth of the tolerance, which is more than another platform's rounding.
+/// The committed files are those that the command makes with the present FMU. The outputs may
+/// differ by a hundredth of the tolerance, which is more than the rounding of another platform.
 #[test]
-fn the_files_are_those_of_a_fresh_converged_flight() {
+fn the_committed_files_are_those_of_a_new_converged_flight() {
     let fresh = scratch().join("fresh");
     let mut command = python("reference-flights/make.py");
     command.arg("--fmu").arg(packaged_fmu());
-    println!(
-        "{}",
-        succeeded(&command.arg("--out").arg(&fresh).output().unwrap())
-    );
+    println!("{}", succeed(command.arg("--out").arg(&fresh)));
     let mut count = 0;
-    for folder in [INSIDE, BESIDE] {
+    for folder in [IN_THE_FMU, CROSS_CHECK] {
         let names = |root: &Path| {
             let files = fs::read_dir(root.join(folder)).unwrap();
             let mut names: Vec<_> = files.map(|f| f.unwrap().file_name()).collect();
@@ -119,7 +115,7 @@ fn the_files_are_those_of_a_fresh_converged_flight() {
                 for (was, is) in old.iter().zip(new) {
                     assert!(
                         (is - was).abs() <= 1e-4 * largest(old),
-                        "{name:?}: {a} is {is}, and was {was}; if that is meant, run `cargo run --release -- reference`"
+                        "{name:?}: {a} is {is}, and was {was}; if that is intended, run `cargo run --release -- reference`"
                     );
                 }
             }
@@ -128,11 +124,11 @@ fn the_files_are_those_of_a_fresh_converged_flight() {
     assert_eq!(count, 16);
 }
 
-/// The largest deviation in each experiment, %, of what FMPy flies through an interface with the
-/// options; all outputs were compared and found within the tolerance.
+/// The largest deviation of FMPy's flight in each experiment, %. All outputs must be compared and
+/// lie within the tolerance. `options` choose the interface.
 fn worst_deviations(options: &[&str]) -> BTreeMap<String, f64> {
     let options: Vec<&Path> = options.iter().map(Path::new).collect();
-    let words = succeeded(&check(packaged_fmu(), &options));
+    let words = succeed(&mut check(packaged_fmu(), &options));
     println!("{words}");
     assert!(words.trim_end().ends_with("All within 1 %."));
     let references = references();
@@ -154,8 +150,8 @@ fn worst_deviations(options: &[&str]) -> BTreeMap<String, f64> {
     found
 }
 
-/// With the communication steps that the experiments name, FMPy is off by the lag of the held
-/// inputs: by less than the tolerance, and by more than nothing.
+/// FMPy holds the inputs constant in each communication step, which is a lag. With the steps of the
+/// experiments the lag is visible, and smaller than the tolerance.
 #[test]
 fn fmpy_repeats_the_experiments_within_the_tolerance() {
     for (experiment, worst) in worst_deviations(&[]) {
@@ -163,8 +159,8 @@ fn fmpy_repeats_the_experiments_within_the_tolerance() {
     }
 }
 
-/// The references, which Co-Simulation made, hold for Model Exchange. Where there are states,
-/// FMPy's held inputs leave a lag there, too; where there are none, nothing.
+/// The references, which Co-Simulation made, hold for Model Exchange, too. Rotors with states have
+/// the lag of FMPy's held inputs, and rotors without states have none.
 #[test]
 fn fmpy_repeats_the_experiments_in_model_exchange() {
     for (experiment, worst) in worst_deviations(&["--interface", "ModelExchange"]) {
@@ -176,13 +172,13 @@ fn fmpy_repeats_the_experiments_in_model_exchange() {
     }
 }
 
-/// Of another importer's results: right ones pass, and what is wrong is named.
+/// Correct results of another importer pass, and errors in them are named.
 #[test]
 fn results_of_another_importer_are_judged() {
     let folder = scratch().join("results");
     fs::create_dir_all(&folder).unwrap();
     let judge = || check(packaged_fmu(), &[Path::new("--results"), &folder]);
-    let missing = refusal(&judge());
+    let missing = fail(&mut judge());
     assert!(missing.contains("hover.csv"), "{missing}");
 
     let references = references();
@@ -192,34 +188,34 @@ fn results_of_another_importer_are_judged() {
     for (experiment, columns) in &references {
         write(experiment, columns);
     }
-    succeeded(&judge());
+    succeed(&mut judge());
 
-    let with = |change: &dyn Fn(&mut Columns)| {
+    let judge_with = |change: &dyn Fn(&mut Columns)| {
         let mut columns = references["forward"].clone();
         change(&mut columns);
         write("forward", &columns);
         judge()
     };
     let off_by = |part: f64| {
-        with(&|columns| {
+        judge_with(&|columns| {
             let (name, values) = &mut columns[3];
             assert_eq!(name, "hubForce[1]");
             let change = part * largest(values);
             values[20] += change;
         })
     };
-    succeeded(&off_by(0.0099));
-    let words = refusal(&off_by(0.0101));
+    succeed(&mut off_by(0.0099));
+    let words = fail(&mut off_by(0.0101));
     assert!(
         words.contains("forward: hubForce[1] is off by 1.01 % at 0.8 s"),
         "{words}"
     );
-    let words = refusal(&off_by(f64::NAN));
+    let words = fail(&mut off_by(f64::NAN));
     assert!(
         words.contains("forward: hubForce[1] is off by nan %"),
         "{words}"
     );
-    let words = refusal(&with(&|columns| {
+    let words = fail(&mut judge_with(&|columns| {
         for (_, values) in columns {
             values.remove(7);
         }
@@ -228,7 +224,7 @@ fn results_of_another_importer_are_judged() {
         words.contains("forward: there is no row at 0.28 s"),
         "{words}"
     );
-    let words = refusal(&with(&|columns| {
+    let words = fail(&mut judge_with(&|columns| {
         columns.remove(3);
     }));
     assert!(
@@ -237,8 +233,8 @@ fn results_of_another_importer_are_judged() {
     );
 }
 
-/// Writes the FMU with a text in one of its files replaced.
-fn altered(out: &Path, file: &str, from: &str, to: &str) {
+/// Writes a copy of the FMU in which a text in one of its files is replaced.
+fn write_altered(out: &Path, file: &str, from: &str, to: &str) {
     let mut archive = ZipArchive::new(fs::File::open(packaged_fmu()).unwrap()).unwrap();
     let mut copy = ZipWriter::new(fs::File::create(out).unwrap());
     for i in 0..archive.len() {
@@ -257,9 +253,9 @@ fn altered(out: &Path, file: &str, from: &str, to: &str) {
     copy.finish().unwrap();
 }
 
-/// An importer that leaves out one setting is seen in that experiment and no other.
+/// If an importer leaves out one setting, the check fails for that experiment and no other.
 #[test]
-fn each_setting_shows_in_the_outputs() {
+fn each_setting_changes_the_outputs_of_its_experiment() {
     let fmu = scratch().join("altered.fmu");
     for (file, from, to) in [
         (
@@ -287,8 +283,8 @@ fn each_setting_shows_in_the_outputs() {
         ("autorotation.ssv", "pittPetersDynamic", "annulus"),
         ("hover_in.csv", "collective", "cyclicLateral"),
     ] {
-        altered(&fmu, file, from, to);
-        let words = refusal(&check(&fmu, &[]));
+        write_altered(&fmu, file, from, to);
+        let words = fail(&mut check(&fmu, &[]));
         let experiment = file.split(['.', '_']).next().unwrap();
         let mut complaints = words.lines().skip(1).peekable();
         assert!(complaints.peek().is_some(), "{file}: {words}");
@@ -303,11 +299,9 @@ fn each_setting_shows_in_the_outputs() {
 
 #[test]
 fn the_files_keep_the_rules_of_their_formats() {
-    let mut command = python("crates/program/tests/layered_standard.py");
-    let words = succeeded(&command.arg(packaged_fmu()).output().unwrap());
-    assert_eq!(words.trim(), "Conforms.");
+    assert_eq!(judge_formats(packaged_fmu()).trim(), "Conforms.");
 
-    // What judges them can say no.
+    // The judgement detects errors.
     let fmu = scratch().join("against-the-rules.fmu");
     for (file, from, to, complaint) in [
         (
@@ -337,28 +331,28 @@ fn the_files_keep_the_rules_of_their_formats() {
         ),
         ("descent_ref.csv", "\"torque\"", "torque", "the header is"),
     ] {
-        altered(&fmu, file, from, to);
-        let mut command = python("crates/program/tests/layered_standard.py");
-        let words = succeeded(&command.arg(&fmu).output().unwrap());
+        write_altered(&fmu, file, from, to);
+        let words = judge_formats(&fmu);
         assert!(words.contains(complaint), "{complaint}: {words}");
     }
 }
 
-/// In the form of the FMI cross-check: the first experiment, with all parameters at their defaults.
+/// The form of the FMI cross-check has the first experiment, in which all parameters have their
+/// defaults.
 #[test]
 fn the_cross_check_has_the_experiment_with_defaults() {
     let read =
         |folder: &str, name: &str| fs::read_to_string(sources().join(folder).join(name)).unwrap();
     assert_eq!(
-        read(BESIDE, "HelicopterRotor_in.csv"),
-        read(INSIDE, "hover_in.csv")
+        read(CROSS_CHECK, "HelicopterRotor_in.csv"),
+        read(IN_THE_FMU, "hover_in.csv")
     );
     assert_eq!(
-        read(BESIDE, "HelicopterRotor_ref.csv"),
-        read(INSIDE, "hover_ref.csv")
+        read(CROSS_CHECK, "HelicopterRotor_ref.csv"),
+        read(IN_THE_FMU, "hover_ref.csv")
     );
-    assert!(!sources().join(INSIDE).join("hover.ssv").exists());
-    let options = read(BESIDE, "HelicopterRotor_ref.opt");
+    assert!(!sources().join(IN_THE_FMU).join("hover.ssv").exists());
+    let options = read(CROSS_CHECK, "HelicopterRotor_ref.opt");
     let options: Vec<_> = options
         .lines()
         .map(|l| l.split_once(", ").unwrap())
@@ -371,42 +365,40 @@ fn the_cross_check_has_the_experiment_with_defaults() {
         ("OutputIntervalLength", "0.04"),
     ];
     assert_eq!(options, expected);
-    assert!(!read(BESIDE, "README.md").is_empty());
+    assert!(!read(CROSS_CHECK, "README.md").is_empty());
 
-    // What the cross-check's repository asks of a submission, as FMPy checks it.
+    // FMPy checks the rules of the cross-check's repository for a submission.
     let folder = scratch().join("2.0/cs/linux64/HelicopterRotor/0.2.0/HelicopterRotor");
     fs::create_dir_all(&folder).unwrap();
     fs::copy(packaged_fmu(), folder.join("HelicopterRotor.fmu")).unwrap();
     for suffix in ["in.csv", "ref.csv", "ref.opt"] {
         let name = format!("HelicopterRotor_{suffix}");
-        fs::write(folder.join(&name), read(BESIDE, &name)).unwrap();
+        fs::write(folder.join(&name), read(CROSS_CHECK, &name)).unwrap();
     }
     let judge = "import sys; from fmpy.cross_check.validate_vendor_repo import validate_test_fmu; \
         print(*validate_test_fmu(sys.argv[1]), sep='\\n')";
     let validate = || {
-        let output = Command::new(support::interpreter())
-            .args(["-c", judge])
-            .arg(&folder)
-            .output();
-        succeeded(&output.unwrap()).trim().to_owned()
+        let mut command = Command::new(interpreter());
+        let words = succeed(command.args(["-c", judge]).arg(&folder));
+        words.trim().to_owned()
     };
     assert_eq!(validate(), "");
     fs::remove_file(folder.join("HelicopterRotor_ref.opt")).unwrap();
     assert!(validate().contains("HelicopterRotor_ref.opt"));
 
-    // As FMPy's own command reads and flies it.
+    // FMPy's own command reads the inputs and flies the experiment.
     let out = scratch().join("cross-check.csv");
-    let inputs = sources().join(BESIDE).join("HelicopterRotor_in.csv");
-    let output = Command::new(support::interpreter())
-        .args(["-m", "fmpy", "simulate", "--interface-type", "CoSimulation"])
-        .args(["--stop-time", "1.0", "--output-interval", "0.004"])
-        .args([Path::new("--input-file"), &inputs])
-        .args([Path::new("--output-file"), &out])
-        .arg(packaged_fmu())
-        .output();
-    succeeded(&output.unwrap());
+    let inputs = sources().join(CROSS_CHECK).join("HelicopterRotor_in.csv");
+    succeed(
+        Command::new(interpreter())
+            .args(["-m", "fmpy", "simulate", "--interface-type", "CoSimulation"])
+            .args(["--stop-time", "1.0", "--output-interval", "0.004"])
+            .args([Path::new("--input-file"), &inputs])
+            .args([Path::new("--output-file"), &out])
+            .arg(packaged_fmu()),
+    );
     let flown = columns(&fs::read_to_string(out).unwrap());
-    for (name, expected) in columns(&read(BESIDE, "HelicopterRotor_ref.csv")) {
+    for (name, expected) in columns(&read(CROSS_CHECK, "HelicopterRotor_ref.csv")) {
         let (_, values) = flown.iter().find(|(n, _)| *n == name).unwrap();
         for (value, expected) in values.iter().step_by(10).zip(&expected) {
             assert!((value - expected).abs() <= 0.01 * largest(values), "{name}");

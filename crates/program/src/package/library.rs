@@ -1,11 +1,9 @@
-//! The shared library that goes into the FMU: built by cargo, which names the file, or given by the
-//! user.
+//! The shared library that goes into the FMU: built by cargo, or given by the user.
 
-use crate::{Failure, failed, sources};
+use crate::{Failure, failed, files, sources};
 use helicopter_rotor::block::variables::{GUID, MODEL_IDENTIFIER};
 use std::{
     env::{self, consts::DLL_SUFFIX},
-    fs,
     path::{Path, PathBuf},
     process::{Command, Stdio},
 };
@@ -18,11 +16,10 @@ const PLATFORM: &str = "darwin64";
 #[cfg(all(target_os = "windows", target_arch = "x86_64"))]
 const PLATFORM: &str = "win64";
 
-/// Builds the FMU's library with cargo, in the profile of this program, and answers the file that
-/// cargo names.
+/// Builds the FMU's library with cargo, in the profile of this program, and returns its path.
 ///
-/// `target`: cargo's target folder. Fails if cargo is not there or cannot build; cargo's own words
-/// go to the terminal.
+/// `target` is cargo's target folder. Fails if cargo is missing or cannot build. The messages of
+/// cargo go to the terminal.
 pub fn build(target: &Path) -> Result<PathBuf, Failure> {
     let mut command = Command::new(env::var_os("CARGO").unwrap_or_else(|| "cargo".into()));
     command
@@ -37,20 +34,23 @@ pub fn build(target: &Path) -> Result<PathBuf, Failure> {
         command.arg("--release");
     }
     let output = command.output().map_err(failed(
-        "cannot run cargo, which builds the FMU's library; put it on the PATH, or name a built library with --library",
+        "cannot run cargo to build the FMU's library; put cargo on the PATH, or name a built library with --library",
     ))?;
     if !output.status.success() {
         return Err(Failure(format!(
-            "cargo did not build the FMU's library ({}); its own words stand above",
+            "cargo did not build the FMU's library ({}); see its message above",
             output.status
         )));
     }
-    named_by_cargo(&String::from_utf8_lossy(&output.stdout))
-        .ok_or_else(|| Failure("cargo names no shared library of the FMU".into()))
+    path_of_library(&String::from_utf8_lossy(&output.stdout)).ok_or_else(|| {
+        Failure(
+            "cargo built the FMU's library, but its messages name no shared library; build it yourself and name it with --library".into(),
+        )
+    })
 }
 
-/// The shared library among cargo's messages, one JSON object a line.
-fn named_by_cargo(messages: &str) -> Option<PathBuf> {
+/// The path of the shared library in cargo's messages, which are one JSON object a line.
+fn path_of_library(messages: &str) -> Option<PathBuf> {
     let messages = messages
         .lines()
         .filter_map(|line| serde_json::from_str::<serde_json::Value>(line).ok());
@@ -65,16 +65,16 @@ fn named_by_cargo(messages: &str) -> Option<PathBuf> {
         .find(|file| file.to_string_lossy().ends_with(DLL_SUFFIX))
 }
 
-/// The binary's name in the FMU, and its content. The GUID in it must be that of the description.
+/// The name of the library in the FMU, and its content. It must contain the GUID of the
+/// description.
 pub fn read(library: &Path) -> Result<(String, Vec<u8>), Failure> {
-    let content =
-        fs::read(library).map_err(failed(format!("cannot read {}", library.display())))?;
+    let content = files::read(library)?;
     if !content
         .windows(GUID.len())
         .any(|window| window == GUID.as_bytes())
     {
         return Err(Failure(format!(
-            "{} was built from another modelDescription.xml than this program; build both anew with `cargo build`",
+            "{} was built from another modelDescription.xml than this program; build both again with `cargo build`",
             library.display()
         )));
     }
@@ -89,7 +89,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_library_is_the_one_that_cargo_names() {
+    fn the_library_is_found_in_the_messages_of_cargo() {
         let file = format!("/target/release/libhelicopter_rotor{DLL_SUFFIX}");
         let artifact = |name: &str| {
             format!(
@@ -100,7 +100,7 @@ mod tests {
         let ours = artifact("helicopter_rotor");
         let finished = r#"{"reason":"build-finished","success":true}"#;
         let messages = format!("{other}\n{ours}\nnot JSON\n{finished}\n");
-        assert_eq!(named_by_cargo(&messages), Some(PathBuf::from(file)));
-        assert_eq!(named_by_cargo(&other), None);
+        assert_eq!(path_of_library(&messages), Some(PathBuf::from(file)));
+        assert_eq!(path_of_library(&other), None);
     }
 }

@@ -4,7 +4,7 @@
 mod documentation;
 pub mod library;
 
-use crate::{Failure, failed, sources};
+use crate::{Failure, failed, files, sources};
 use helicopter_rotor::description;
 use std::{
     fs::{self, File},
@@ -13,29 +13,38 @@ use std::{
 };
 use zip::{DateTime, ZipWriter, write::SimpleFileOptions};
 
-/// The FMU's face in the source tree.
-fn face() -> PathBuf {
+/// The single files of modelDescription/ that go into the archive under the same name.
+const FILES: [&str; 3] = [
+    "documentation/diagram.svg",
+    "documentation/fmi-ls-ref.html",
+    "model.png",
+];
+
+/// The folders of modelDescription/ that go into the archive with all their files, and their names
+/// in it.
+const FOLDERS: [(&str, &str); 3] = [
+    ("licenses", "documentation/licenses"),
+    ("resources", "resources"),
+    ("extra", "extra"),
+];
+
+/// The folder modelDescription/ in the source tree.
+fn model_description() -> PathBuf {
     sources().join("modelDescription")
 }
 
-/// Writes the .fmu with a shared library in it; `file` appears whole or not at all.
+/// Writes the .fmu with a shared library in it. After an error there is no incomplete `file`.
 pub fn write(file: &Path, library: &Path) -> Result<(), Failure> {
-    let folder = file
-        .parent()
-        .filter(|f| !f.as_os_str().is_empty())
-        .unwrap_or(Path::new("."));
-    fs::create_dir_all(folder).map_err(failed(format!("cannot make {}", folder.display())))?;
-    let name = file.file_name().ok_or_else(|| {
-        Failure(format!(
-            "{} names no file; give a name such as HelicopterRotor.fmu",
+    if file.file_name().is_none() {
+        return Err(Failure(format!(
+            "{} is not the name of a file; give a name such as HelicopterRotor.fmu",
             file.display()
-        ))
-    })?;
-    let temporary = folder.join(format!(
-        ".{}.{}.tmp",
-        name.to_string_lossy(),
-        std::process::id()
-    ));
+        )));
+    }
+    if let Some(folder) = file.parent().filter(|f| !f.as_os_str().is_empty()) {
+        files::make_folder(folder)?;
+    }
+    let temporary = files::temporary_beside(file)?;
     let written = File::create(&temporary)
         .map_err(failed(format!("cannot write {}", temporary.display())))
         .and_then(|out| archive(out, library))
@@ -43,7 +52,7 @@ pub fn write(file: &Path, library: &Path) -> Result<(), Failure> {
             fs::rename(&temporary, file).map_err(failed(format!("cannot write {}", file.display())))
         });
     if written.is_err() {
-        // What went wrong is told; a left-over that cannot be removed adds nothing to it.
+        // The error in `written` is the one to report, whether or not the file can be removed.
         let _ = fs::remove_file(&temporary);
     }
     written
@@ -61,55 +70,33 @@ fn archive(out: impl Write + Seek, library: &Path) -> Result<(), Failure> {
             .and_then(|()| zip.write_all(content).map_err(|e| e.to_string()))
             .map_err(failed(format!("cannot add {name} to the archive")))
     };
+    let read = |relative: &str| files::read(&model_description().join(relative));
     add("modelDescription.xml", description::XML.as_bytes())?;
     let (binary, content) = library::read(library)?;
     add(&binary, &content)?;
-    add(
-        "documentation/index.html",
-        documentation::page(&read("documentation/index.html")?)?.as_bytes(),
-    )?;
-    for name in [
-        "documentation/diagram.svg",
-        "documentation/fmi-ls-ref.html",
-        "model.png",
-    ] {
+    let page = documentation::page(&read("documentation/index.html")?)?;
+    add("documentation/index.html", page.as_bytes())?;
+    for name in FILES {
         add(name, &read(name)?)?;
     }
-    for folder in ["licenses", "resources", "extra"] {
-        let inside = if folder == "licenses" {
-            "documentation/licenses"
-        } else {
-            folder
-        };
-        for relative in files_below(&face().join(folder))? {
-            add(
-                &format!("{inside}/{relative}"),
-                &read(&format!("{folder}/{relative}"))?,
-            )?;
+    for (folder, name_in_archive) in FOLDERS {
+        for relative in files_below(&model_description().join(folder))? {
+            let content = read(&format!("{folder}/{relative}"))?;
+            add(&format!("{name_in_archive}/{relative}"), &content)?;
         }
     }
     zip.finish().map_err(failed("cannot finish the archive"))?;
     Ok(())
 }
 
-fn read(relative: &str) -> Result<Vec<u8>, Failure> {
-    let path = face().join(relative);
-    fs::read(&path).map_err(failed(format!("cannot read {}", path.display())))
-}
-
-/// Names of the files below a folder, sorted, with forward slashes.
+/// The names of the files below a folder, sorted, with forward slashes. Hidden files are left out.
 fn files_below(folder: &Path) -> Result<Vec<String>, Failure> {
-    let cannot = || format!("cannot list {}", folder.display());
     let mut names = Vec::new();
-    for entry in fs::read_dir(folder).map_err(failed(cannot()))? {
-        let entry = entry.map_err(failed(cannot()))?;
-        let name = entry.file_name().to_string_lossy().into_owned();
-        if entry.path().is_dir() {
-            names.extend(
-                files_below(&entry.path())?
-                    .iter()
-                    .map(|f| format!("{name}/{f}")),
-            );
+    for path in files::entries(folder)? {
+        let name = files::name(&path);
+        if path.is_dir() {
+            let below = files_below(&path)?;
+            names.extend(below.iter().map(|f| format!("{name}/{f}")));
         } else if !name.starts_with('.') {
             names.push(name);
         }

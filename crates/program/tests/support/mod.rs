@@ -1,5 +1,5 @@
-//! What the tests of the program share: the .fmu that it packages, a folder for files, and its
-//! Python environment.
+//! Shared by the tests of the program: the packaged .fmu, a folder for files, the Python
+//! environment, and running commands.
 
 // Each test program uses a part of this.
 #![allow(dead_code)]
@@ -7,7 +7,7 @@
 use std::{
     fs,
     path::{Path, PathBuf},
-    process::{Command, Output},
+    process::Command,
     sync::OnceLock,
 };
 
@@ -19,20 +19,31 @@ pub fn sources() -> &'static Path {
         .unwrap()
 }
 
+/// The program under test.
 pub fn program() -> Command {
     Command::new(env!("CARGO_BIN_EXE_helicopter-rotor"))
 }
 
-/// What a command prints; the test fails if the command does.
+/// Runs a command that must succeed, and returns its output.
 #[track_caller]
-pub fn succeeded(output: &Output) -> String {
-    let words = String::from_utf8_lossy(&output.stdout).into_owned();
+pub fn succeed(command: &mut Command) -> String {
+    let output = command.output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout).into_owned();
     let errors = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success(), "{words}\n{errors}");
-    words
+    assert!(output.status.success(), "{text}\n{errors}");
+    text
 }
 
-/// A folder of this process for the files of its tests; those of ended processes are removed.
+/// Runs a command that must fail, and returns its error message.
+#[track_caller]
+pub fn fail(command: &mut Command) -> String {
+    let output = command.output().unwrap();
+    let text = String::from_utf8_lossy(&output.stdout);
+    assert!(!output.status.success(), "{text}");
+    String::from_utf8_lossy(&output.stderr).into_owned()
+}
+
+/// A folder for the files of this test process. Folders of ended processes are removed.
 pub fn scratch() -> &'static Path {
     static FOLDER: OnceLock<PathBuf> = OnceLock::new();
     FOLDER.get_or_init(|| {
@@ -61,28 +72,21 @@ pub fn packaged_fmu() -> &'static Path {
     static FILE: OnceLock<PathBuf> = OnceLock::new();
     FILE.get_or_init(|| {
         let file = scratch().join("HelicopterRotor.fmu");
-        succeeded(
-            &program()
-                .arg("package")
-                .arg("--out")
-                .arg(&file)
-                .output()
-                .unwrap(),
-        );
+        succeed(program().args(["package", "--out"]).arg(&file));
         file
     })
 }
 
-/// The interpreter of the examples' environment, which is made if need be.
+/// The interpreter of the examples' environment, which is made if it is missing.
 pub fn interpreter() -> &'static Path {
     static INTERPRETER: OnceLock<PathBuf> = OnceLock::new();
     INTERPRETER.get_or_init(|| {
-        let words = succeeded(&program().arg("python").output().unwrap());
-        PathBuf::from(words.trim())
+        let path = succeed(program().arg("python"));
+        PathBuf::from(path.trim())
     })
 }
 
-/// A script of the source tree in that environment.
+/// Runs a script of the source tree in that environment.
 pub fn python(script: &str) -> Command {
     let mut command = Command::new(interpreter());
     command.arg(sources().join(script));

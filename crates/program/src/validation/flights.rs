@@ -1,4 +1,4 @@
-//! The scripts in validation/, run with a progress bar.
+//! Runs the scripts in validation/, with a progress bar.
 
 use crate::{Failure, failed, sources};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -10,7 +10,7 @@ use std::{
     time::Duration,
 };
 
-/// Flies all cases and writes what they found into a folder.
+/// Flies all cases and writes the results into a folder.
 pub fn fly_all(interpreter: &Path, fmu: &Path, folder: &Path) -> Result<(), Failure> {
     let scripts = sources().join("validation");
     let cannot = || format!("cannot run {}", scripts.display());
@@ -27,22 +27,35 @@ pub fn fly_all(interpreter: &Path, fmu: &Path, folder: &Path) -> Result<(), Fail
     let (Some(output), Some(mut errors)) = (child.stdout.take(), child.stderr.take()) else {
         return Err(Failure(cannot()));
     };
-    let words = thread::spawn(move || {
-        let mut words = Vec::new();
-        // What could be read of them is shown.
-        let _ = errors.read_to_end(&mut words);
-        String::from_utf8_lossy(&words).trim().to_owned()
+    // Both pipes are read at the same time, because a full one stops the scripts.
+    let message = thread::spawn(move || {
+        let mut bytes = Vec::new();
+        // After an error in reading, the message is what was read until then.
+        let _ = errors.read_to_end(&mut bytes);
+        String::from_utf8_lossy(&bytes).trim().to_owned()
     });
+    show_progress(output).map_err(failed(cannot()))?;
+    let status = child.wait().map_err(failed(cannot()))?;
+    let message = message.join().unwrap_or_default();
+    if status.success() {
+        return Ok(());
+    }
+    Err(Failure(format!(
+        "a case failed, and no results were written: {message}"
+    )))
+}
 
+/// Shows the progress in the output of the scripts, and their other lines above it.
+fn show_progress(output: impl Read) -> std::io::Result<()> {
     let bar = ProgressBar::new(0);
     if let Ok(style) = ProgressStyle::with_template("{elapsed} {wide_bar} {pos}/{len} {msg}") {
         bar.set_style(style);
     }
     bar.enable_steady_tick(Duration::from_millis(250));
     for line in BufReader::new(output).lines() {
-        let line = line.map_err(failed(cannot()))?;
-        if let Some((done, all, name)) = progress(&line) {
-            bar.set_length(all);
+        let line = line?;
+        if let Some((done, total, name)) = progress(&line) {
+            bar.set_length(total);
             bar.set_position(done);
             bar.set_message(name.to_owned());
         } else {
@@ -50,20 +63,13 @@ pub fn fly_all(interpreter: &Path, fmu: &Path, folder: &Path) -> Result<(), Fail
         }
     }
     bar.finish_and_clear();
-    let status = child.wait().map_err(failed(cannot()))?;
-    let words = words.join().unwrap_or_default();
-    if status.success() {
-        return Ok(());
-    }
-    Err(Failure(format!(
-        "a case could not be flown, nothing was written: {words}"
-    )))
+    Ok(())
 }
 
 /// The parts of a line `progress DONE TOTAL NAME`.
 fn progress(line: &str) -> Option<(u64, u64, &str)> {
     let mut parts = line.strip_prefix("progress ")?.splitn(3, ' ');
     let mut number = || parts.next()?.parse().ok();
-    let (done, all) = (number()?, number()?);
-    Some((done, all, parts.next()?))
+    let (done, total) = (number()?, number()?);
+    Some((done, total, parts.next()?))
 }

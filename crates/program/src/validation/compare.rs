@@ -1,7 +1,7 @@
-//! Two texts with numbers, within the rounding of what is printed.
+//! Compares two texts with numbers, within the rounding of the printed digits.
 
-/// Lines that differ, as (first, second): in words, or in a number by more than a unit of its last
-/// printed digit. A line that one text has not is empty there.
+/// The pairs of lines that differ: in a word, or in a number by more than one unit of its last
+/// printed digit. If one text has more lines, the other side of the pair is empty.
 pub fn differences<'a>(first: &'a str, second: &'a str) -> Vec<(&'a str, &'a str)> {
     let (mut a, mut b) = (first.lines(), second.lines());
     let mut found = Vec::new();
@@ -37,13 +37,13 @@ fn same_word(a: &str, b: &str) -> bool {
     };
     let (a, b) = (bare(a), bare(b));
     match (a.parse::<f64>(), b.parse::<f64>()) {
-        // Half a unit is lost by either rounding.
+        // Each of the two numbers is rounded by up to half a unit.
         (Ok(x), Ok(y)) => (x - y).abs() <= 1.001 * last_digit(&a).max(last_digit(&b)),
         _ => false,
     }
 }
 
-/// What one unit of a printed number's last digit is worth.
+/// The value of one unit of the last digit of a printed number.
 fn last_digit(number: &str) -> f64 {
     let (mantissa, exponent) = number.split_once('e').unwrap_or((number, "0"));
     let decimals = mantissa

@@ -1,0 +1,125 @@
+//! Values out of the block: the rotor's response to the present inputs, parameters and states.
+
+use super::{
+    BlockError, Fresh, RotorBlock, Stage,
+    flight_condition::FlightCondition,
+    integrate::Memory,
+    outputs::write_response,
+    outside_data::OutsideDataNotice,
+    references::Reals,
+    setup,
+    shown::shown,
+    values::Values,
+    variables::{Causality, FlowState, REALS, integer, real},
+};
+use rotor::{Rotor, SolveError};
+use std::sync::Arc;
+
+impl RotorBlock {
+    /// Ends the configuration, after which fixed parameters cannot change.
+    pub fn start(&mut self) -> Result<(), BlockError> {
+        self.update()?;
+        self.stage = Stage::Running;
+        Ok(())
+    }
+
+    /// Computes the outputs for the present inputs, parameters and states, unless they are up to
+    /// date. While the block is being configured, it finds the states at the start first.
+    pub fn update(&mut self) -> Result<(), BlockError> {
+        if self.fresh == Fresh::All {
+            return Ok(());
+        }
+        let condition = FlightCondition::new(&self.values)?;
+        let memory = match self.stage {
+            Stage::Running | Stage::Integrating => self.memory,
+            Stage::Configuring => {
+                let values = &self.values;
+                let start = setup::start(values)?;
+                let azimuth_step = values.reals[real::NUMERICS__AZIMUTH_STEP];
+                let rotor = self.rotor()?;
+                let workspace = &mut self.workspace;
+                let state = rotor.start(&condition.point, start, azimuth_step, workspace);
+                Memory::starting(state.map_err(|e| self.unsolved(e))?)
+            }
+        };
+        self.publish(&condition, memory)
+    }
+
+    /// The rotor of the present parameters, which is made if there is none.
+    pub(super) fn rotor(&mut self) -> Result<Arc<Rotor>, BlockError> {
+        if let Some(rotor) = &self.rotor {
+            return Ok(Arc::clone(rotor));
+        }
+        let (rotor, notes) = setup::rotor(&self.values, &self.resources)?;
+        Ok(self.take_over(rotor, notes))
+    }
+
+    /// Stores a rotor that was just made, and the notes from making it.
+    pub(super) fn take_over(&mut self, rotor: Rotor, notes: Vec<String>) -> Arc<Rotor> {
+        self.notes.extend(notes);
+        self.outside_data = OutsideDataNotice::default();
+        Arc::clone(self.rotor.insert(Arc::new(rotor)))
+    }
+
+    /// Computes the outputs in a flight condition. If all are finite, they and the states in
+    /// `memory` become the block's; otherwise nothing changes.
+    pub(super) fn publish(
+        &mut self,
+        condition: &FlightCondition,
+        memory: Memory,
+    ) -> Result<(), BlockError> {
+        let mut reals = self.values.reals;
+        let rotor = self.rotor()?;
+        let state = &memory.state;
+        let response = rotor
+            .respond(&condition.point, state, &mut self.workspace)
+            .map_err(|error| BlockError::Unsolved(error, inputs(&self.values)))?;
+        write_response(&mut reals, &rotor, condition, state, &response);
+        check_finite(&self.values, &reals)?;
+        self.values.reals = reals;
+        let flow_state = match response.hub.flow_state {
+            rotor::inflow::FlowState::Normal => FlowState::Normal,
+            rotor::inflow::FlowState::VortexRing => FlowState::VortexRing,
+            rotor::inflow::FlowState::TurbulentWake => FlowState::TurbulentWake,
+            rotor::inflow::FlowState::WindmillBrake => FlowState::WindmillBrake,
+        };
+        self.flow_state = flow_state as i32;
+        if self.stage != Stage::Integrating {
+            self.values.integers[integer::FLOW_STATE] = self.flow_state;
+        }
+        self.memory = memory;
+        self.fresh = Fresh::All;
+        self.notes
+            .extend(self.outside_data.next(&rotor, &response.blade));
+        Ok(())
+    }
+
+    /// The block's error for one of the rotor, with the present inputs.
+    pub(super) fn unsolved(&self, error: SolveError) -> BlockError {
+        BlockError::Unsolved(error, inputs(&self.values))
+    }
+}
+
+/// An error if any computed value in `reals` is not finite.
+pub(super) fn check_finite(values: &Values, reals: &Reals) -> Result<(), BlockError> {
+    for (variable, value) in REALS.iter().zip(reals) {
+        if variable.causality.is_computed() && !value.is_finite() {
+            return Err(BlockError::NotFinite {
+                name: variable.name,
+                value: *value,
+                inputs: inputs(values),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The inputs and their values as text for an error message.
+pub(super) fn inputs(values: &Values) -> String {
+    let inputs = REALS
+        .iter()
+        .zip(values.reals)
+        .filter(|(v, _)| v.causality == Causality::Input);
+    let texts = inputs.map(|(v, value)| format!("{} = {} {}", v.name, shown(value), v.unit));
+    texts.collect::<Vec<_>>().join(", ")
+}

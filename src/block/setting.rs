@@ -1,0 +1,89 @@
+//! Values into the block. A value that is set makes computed values out of date.
+
+use super::{
+    Fresh, RotorBlock, Stage, ValueError, Values,
+    integrate::Memory,
+    references::Names,
+    state_vector::read_states,
+    variables::{BooleanRef, Causality, IntegerRef, RealRef, StringRef},
+};
+
+impl RotorBlock {
+    /// Sets Real variables. If one value is refused, none is set.
+    pub fn set_reals(
+        &mut self,
+        names: &[impl Names<RealRef>],
+        values: &[f64],
+    ) -> Result<(), ValueError> {
+        self.values.set_reals(self.stage, names, values)?;
+        let mut references = names.iter().flat_map(|name| name.reference());
+        let defines_rotor = |reference: RealRef| {
+            let variable = reference.variable();
+            variable.causality == Causality::Parameter && !variable.tunable
+        };
+        let rotor_changes =
+            self.stage == Stage::Configuring && references.clone().any(defines_rotor);
+        self.invalidate(rotor_changes);
+        if references.any(RealRef::is_state) {
+            self.memory = Memory::starting(read_states(&self.values.reals));
+        }
+        Ok(())
+    }
+
+    /// Sets the time derivatives of inputs, per second. If one is refused, none is set. During the
+    /// next step the inputs move linearly from their present values, and afterwards they keep the
+    /// values at its end.
+    pub fn set_input_slopes(
+        &mut self,
+        names: &[impl Names<RealRef>],
+        slopes: &[f64],
+    ) -> Result<(), ValueError> {
+        Values::set_slopes(names, slopes, &mut self.ramp.slopes)
+    }
+
+    /// Sets Integer and Enumeration variables. If one value is refused, none is set.
+    pub fn set_integers(
+        &mut self,
+        names: &[impl Names<IntegerRef>],
+        values: &[i32],
+    ) -> Result<(), ValueError> {
+        self.values.set_integers(self.stage, names, values)?;
+        self.invalidate(self.stage == Stage::Configuring);
+        Ok(())
+    }
+
+    /// Sets Boolean variables: 0 is false and 1 is true. If one value is refused, none is set.
+    pub fn set_booleans(
+        &mut self,
+        names: &[impl Names<BooleanRef>],
+        values: &[i32],
+    ) -> Result<(), ValueError> {
+        self.values.set_booleans(self.stage, names, values)?;
+        self.invalidate(self.stage == Stage::Configuring);
+        Ok(())
+    }
+
+    /// Sets String variables. If one value is refused, none is set.
+    pub fn set_strings(
+        &mut self,
+        names: &[impl Names<StringRef>],
+        values: &[&str],
+    ) -> Result<(), ValueError> {
+        self.values.set_strings(self.stage, names, values)?;
+        self.invalidate(self.stage == Stage::Configuring);
+        Ok(())
+    }
+
+    /// Marks all computed values as out of date, after a panic that may have left them
+    /// half-written.
+    pub fn forget_results(&mut self) {
+        self.invalidate(false);
+    }
+
+    fn invalidate(&mut self, rotor_changes: bool) {
+        self.fresh = Fresh::Nothing;
+        if rotor_changes {
+            self.rotor = None;
+        }
+    }
+}
