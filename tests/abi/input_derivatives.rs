@@ -86,7 +86,7 @@ fn steps_along_a_ramp_converge_with_order_three_to_the_staircase_of_ever_shorter
         let errors = [64, 128, 256].map(|steps| distance(&fly(steps, true), &limit));
         // The kinks of the airfoil table, which is linear between its points, disturb a single
         // halving.
-        let order = (errors[0] / errors[2]).log2() / 2.0;
+        let order = libm::log2(errors[0] / errors[2]) / 2.0;
         let held = distance(&held(&running(inflow, true, is_driven), 256), &limit);
         println!("{inflow}: {errors:?}, order {order}, held {held}");
         // A difference in the limit itself would keep the errors from falling so.

@@ -50,7 +50,8 @@ fn last_digit(number: &str) -> f64 {
         .split_once('.')
         .map_or(0, |(_, digits)| digits.len());
     let exponent: i32 = exponent.parse().unwrap_or(0);
-    10_f64.powi(exponent - i32::try_from(decimals).unwrap_or(0))
+    let exponent = exponent - i32::try_from(decimals).unwrap_or(0);
+    format!("1e{exponent}").parse().unwrap_or(f64::NAN)
 }
 
 #[cfg(test)]

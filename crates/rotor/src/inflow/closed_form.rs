@@ -207,7 +207,8 @@ mod tests {
 
     /// Eq. (94) as printed, in ratios of tip speed.
     fn printed(a: f64, climb: f64, theta_r: f64) -> f64 {
-        ((a - climb / 2.0).powi(2) + 2.0 * a * theta_r).sqrt() - (a - climb / 2.0)
+        let half = a - climb / 2.0;
+        (half * half + 2.0 * a * theta_r).sqrt() - half
     }
 
     #[test]
