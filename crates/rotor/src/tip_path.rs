@@ -1,4 +1,4 @@
-//! The cone of the blades.
+//! The tip path: the cone of the blades.
 
 use super::{disc::Flap, evaluation::Evaluation, loads::DiscLoads, scalar::Scalar};
 use core::f64::consts::PI;
