@@ -1,5 +1,5 @@
-//! The physics of a helicopter rotor: plain structures and functions in SI units and radians.
-//! Nothing here knows of FMI.
+//! The physics of a helicopter rotor: plain structures and functions in SI units and radians,
+//! independent of FMI.
 //!
 //! A `Rotor` is a definition that never changes. Its `Response` at an `OperatingPoint` in a `State`
 //! is computed in a `Workspace`, in plain numbers or in dual numbers, which carry exact

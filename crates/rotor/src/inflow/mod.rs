@@ -77,8 +77,8 @@ pub(crate) enum Induction<'a, S> {
 }
 
 impl Inflow {
-    /// Peters & He's wake up to the power `order` (1 to 6) of the radius, for a rotor of so many
-    /// blades whose elements lie at these radii r/R.
+    /// Peters & He's wake up to the power `order` (1 to 6) of the radius, for a rotor with
+    /// `blades` blades whose elements lie at `radius_ratios`, r/R.
     pub fn peters_he(order: usize, blades: usize, radius_ratios: &[f64]) -> Self {
         Self::PetersHe(Box::new(Wake::of_blades(order, blades, radius_ratios)))
     }

@@ -12,9 +12,9 @@
 //! ```
 //!
 //! and g = |1 + k| in momentum theory. In this form every inflow model can use the measurements,
-//! annuli and inflow states included: V' is a function of what the model knows, without a state of
-//! its own that could chatter. As long as V_c/v_h = k/sqrt(g) grows with k, the thrust grows with v
-//! at any V_c, and the inflow is unique.
+//! annuli and inflow states included: V' is a function of V_x, V_c and v alone, without a discrete
+//! flow state that could switch to and fro. As long as V_c/v_h = k/sqrt(g) grows with k, the thrust
+//! grows with v at any V_c, and the inflow is unique.
 
 mod johnson;
 mod measured;
@@ -94,8 +94,8 @@ impl Descent {
             }
             Self::Measured | Self::Johnson => momentum(),
         };
-        // In descent momentum theory can give a negative slope, which has no meaning: the wake
-        // carries nothing away at the least.
+        // In descent momentum theory can give a negative slope. It has no physical meaning: at the
+        // least the wake carries no momentum away.
         MassFlow {
             speed,
             slope: slope.at_least(0.0),
