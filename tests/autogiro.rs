@@ -26,7 +26,7 @@ const DENSITY: f64 = 1.0823;
 const STEPS: usize = 30;
 
 /// Mean torque, N.m, and thrust coefficient over a blade passage at a shaft angle, rad.
-fn fly(rotor: &str, mu: f64, rpm: f64, alpha: f64) -> (f64, f64) {
+fn mean_loads(rotor: &str, mu: f64, rpm: f64, alpha: f64) -> (f64, f64) {
     let mut block = default_block();
     set_string(&mut block, string::GEOMETRY__FILE, rotor);
     choose(&mut block, integer::MODELS__INFLOW, "pittPetersDynamic");
@@ -60,16 +60,16 @@ fn fly(rotor: &str, mu: f64, rpm: f64, alpha: f64) -> (f64, f64) {
 /// the rotor more, the further the shaft leans back.
 fn autorotate(rotor: &str, mu: f64, rpm: f64) -> f64 {
     let (mut low, mut high) = (-0.1, 0.1);
-    assert!(fly(rotor, mu, rpm, low).0 > 0.0 && fly(rotor, mu, rpm, high).0 < 0.0);
+    assert!(mean_loads(rotor, mu, rpm, low).0 > 0.0 && mean_loads(rotor, mu, rpm, high).0 < 0.0);
     for _ in 0..12 {
         let middle = 0.5 * (low + high);
-        if fly(rotor, mu, rpm, middle).0 > 0.0 {
+        if mean_loads(rotor, mu, rpm, middle).0 > 0.0 {
             low = middle;
         } else {
             high = middle;
         }
     }
-    fly(rotor, mu, rpm, low).1
+    mean_loads(rotor, mu, rpm, low).1
 }
 
 /// The cause is drag. The section's drag coefficient of 0.0120 does not include the fittings and

@@ -19,7 +19,7 @@ const BLADES: [&str; 3] = ["automatic", "disc", "flapping"];
 
 /// The kind of difference. `Central` uses values on both sides. `OneSided` uses values on the side
 /// to which the exact derivative points, in flights at a corner of the model: in axial flow the
-/// speed along the disc is a magnitude, and descent begins.
+/// edgewise speed is a magnitude, and descent begins.
 #[derive(Clone, Copy, PartialEq)]
 enum Difference {
     Central,

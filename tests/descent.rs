@@ -101,7 +101,7 @@ fn momentum_theory_alone_jumps_to_the_windmill() {
     assert!(largest > 0.1, "{largest}");
 }
 
-/// Flow along the disc carries the wake away. At three times v_h the laws agree.
+/// Edgewise flow carries the wake away. At three times v_h the laws agree.
 #[test]
 fn the_vortex_ring_fades_with_flow_along_the_disc() {
     for inflow in ["uniform", "annulus"] {

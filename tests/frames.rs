@@ -1,4 +1,4 @@
-//! Frames: from the ground to the hub and back, wind, and the turning sense.
+//! Frames: from the ground to the hub and back, wind, and the direction of rotation.
 
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]

@@ -36,7 +36,7 @@ const LONGEST_AZIMUTH_STEP: f64 = real::NUMERICS__AZIMUTH_STEP.variable().max;
 const STEP: f64 = 0.02;
 const RPM: f64 = 960.0;
 
-/// Speeds along the disc over the tip speed at `RPM`.
+/// Edgewise speeds over the tip speed at `RPM`.
 const ADVANCE: [f64; 5] = [0.0, 0.05, 0.15, 0.3, 0.5];
 /// Climb speeds over the induced velocity in hover.
 const CLIMB: [f64; 7] = [-3.0, -1.8, -1.0, -0.5, 0.0, 1.0, 3.0];

@@ -104,7 +104,7 @@ def render(polar):
         [
             "#1",
             f"# {name}: lift slopes, stall angles and drag polynomials. Made by",
-            f"# airfoil-tables/make_slopes.py from {polar}; do not edit.",
+            f"# provenance/airfoil-tables/make_slopes.py from {polar}; do not edit.",
             "# For symmetric use: cl odd, cd even.",
             "# Layout after Lovaco Hernandez (2017), LIU-IEI-TEK-A--17/02958-SE, sections 3.5.1 to",
             "# 3.5.3, whose own numbers were not at hand: none of them is in this file.",

@@ -268,7 +268,7 @@ def knight_hefner_file():
     scatter = f"cl {rms(residual_cl):.4f}, cd {rms(residual_cd):.5f}"
     scatter_below = f"cl {rms(residual_cl[below]):.4f}, cd {rms(residual_cd[below]):.5f}"
     header = f"""
-NACA 0015, measured. Made by airfoil-tables/make_tables.py; do not edit.
+NACA 0015, measured. Made by provenance/airfoil-tables/make_tables.py; do not edit.
 Source: Knight, M. & Hefner, R. A. (1937), "Static Thrust Analysis of the Lifting
 Airscrew", NACA TN 626, Tables V and VI: airfoil 6 by 72 inch, Re {MEASURED_REYNOLDS:,},
 reduced to infinite aspect ratio by the authors.
@@ -309,7 +309,7 @@ def scaled_file():
     low, high = blocks[0], blocks[-1]
     header = f"""
 NACA 0015, measured at Re {MEASURED_REYNOLDS:,}, its drag taken to other Reynolds numbers by computed
-ratios. Made by airfoil-tables/make_tables.py; do not edit.
+ratios. Made by provenance/airfoil-tables/make_tables.py; do not edit.
 Measured: naca0015-knight-hefner.polar, which says how. Its block at Re {MEASURED_REYNOLDS:,} is here as it is there.
 Method: up to {KNOTS[-1]:.0f} deg, at each knot of the measured polar, its cd times the ratio of those that
 NeuralFoil {version("neuralfoil")} (P. Sharpe) computes at the other Reynolds number and at {MEASURED_REYNOLDS:,}, with the
@@ -318,7 +318,7 @@ Beyond the measured peak of cl, at {KNOTS[np.argmax(low.cl[: len(KNOTS)])]:.0f} 
 with the ratio there; the rest is pressure drag of the stall. NeuralFoil's own confidence is at
 least {LOWEST_CONFIDENCE} at the knots. No value is adjusted by hand.
 Drag at 0 deg: {low.cd[0]:.4f} at Re {low.reynolds:,.0f} to {high.cd[0]:.4f} at Re {high.reynolds:,.0f}.
-Lift is the measured one at all Reynolds numbers, also its peak: airfoil-tables/README.md says why.
+Lift is the measured one at all Reynolds numbers, also its peak: provenance/airfoil-tables/README.md says why.
 Match angle: {KNOTS[-1]:.0f} deg, the last knot.
 {POST_STALL}
 """
@@ -336,12 +336,12 @@ def computed_file():
     far = distance(block.alpha[compared], block.cl[compared], block.cd[compared])
     slope, measured_slope = lift_slope(block.alpha, block.cl), lift_slope(KNOTS, fit_measured()[0])
     header = f"""
-NACA 0015, computed. Made by airfoil-tables/make_tables.py; do not edit.
+NACA 0015, computed. Made by provenance/airfoil-tables/make_tables.py; do not edit.
 Method: NeuralFoil {version("neuralfoil")} (P. Sharpe), model size {MODEL_SIZE}, Mach 0,
 free transition with n_crit {N_CRIT:.0f} (free-stream turbulence about 2 % by Mack's relation),
 computed for alpha >= 0 and mirrored.
 Chosen by comparison with the measurements of Knight & Hefner (1937) at Re {MEASURED_REYNOLDS:,};
-the table of candidates is in airfoil-tables/README.md.
+the table of candidates is in provenance/airfoil-tables/README.md.
 Distance from naca0015-knight-hefner.polar at Re {MEASURED_REYNOLDS:,}, 0 to 12 deg:
 |dcl| mean {far["mean_dcl"]:.4f}, max {far["max_dcl"]:.4f};
 |dcd| mean {far["mean_dcd"]:.5f}, max {far["max_dcd"]:.5f};
@@ -364,7 +364,7 @@ def naca0012_file():
     slope = lift_slope(block.alpha, block.cl)
     peak = float(block.cl[block.alpha == block.match - PAST_STALL_DEG][0])
     header = f"""
-NACA 0012, computed. Made by airfoil-tables/make_tables.py; do not edit.
+NACA 0012, computed. Made by provenance/airfoil-tables/make_tables.py; do not edit.
 Method: NeuralFoil {version("neuralfoil")} (P. Sharpe), model size {MODEL_SIZE}, Mach 0,
 free transition with n_crit {N_CRIT:.0f} (free-stream turbulence about 2 % by Mack's relation),
 computed for alpha >= 0 and mirrored. n_crit is assumed: it is that of naca0015.polar, chosen there
@@ -402,13 +402,13 @@ def goettingen_file():
     numbers = [goettingen_numbers(blocks[GOETTINGEN_REYNOLDS.index(re)]) for re in (2e6, 4e6)]
     header = f"""
 Goettingen 429, computed; no measured table of this section was found. Made by
-airfoil-tables/make_tables.py; do not edit.
+provenance/airfoil-tables/make_tables.py; do not edit.
 Coordinates: GOE 429 of the UIUC airfoil database (33 points, four decimals) as in AeroSandbox
 {version("aerosandbox")}: 11.4 % thick, meant to be symmetric; its camber of 0.2 % is kept.
 Method: NeuralFoil {version("neuralfoil")} (P. Sharpe), model size {MODEL_SIZE}, Mach 0,
 free transition with n_crit {N_CRIT:.0f} (free-stream turbulence about 2 % by Mack's relation),
 computed for positive and negative angles. n_crit is assumed: it is that of naca0015.polar; the
-reasons are in airfoil-tables/README.md.
+reasons are in provenance/airfoil-tables/README.md.
 {numbers[0]}
 {numbers[1]}
 For comparison, assumed by Wheatley (1934), NACA Rep. 487, p. 13: lift slope 5.85 per rad ("a good
@@ -423,7 +423,7 @@ NeuralFoil's own confidence is at least {LOWEST_CONFIDENCE} up to there.
 def wheatley_file():
     """wheatley-1934.polar"""
     header = """
-The blade section of Wheatley's analysis of autogiro rotors. Made by airfoil-tables/make_tables.py; do
+The blade section of Wheatley's analysis of autogiro rotors. Made by provenance/airfoil-tables/make_tables.py; do
 not edit.
 Source: Wheatley, J. B. (1934), NACA Report 487: lift in proportion to the angle of attack with the
 slope 5.85 per rad, "a good average for most airfoils" (pp. 12 and 13), the same at 180 deg as at 0
@@ -441,7 +441,7 @@ For rotors whose blades hardly stall; the Reynolds number is without meaning.
 def circle_file():
     """circle.polar"""
     header = """
-Circular cylinder, for blade roots. Made by airfoil-tables/make_tables.py; do not edit.
+Circular cylinder, for blade roots. Made by provenance/airfoil-tables/make_tables.py; do not edit.
 Reynolds number on the diameter, drag coefficient on the frontal area, smooth surface, no lift.
 Source: Wieselsberger, C. (1921), Physikalische Zeitschrift 22, 321-328, as plotted in
 Schlichting, Boundary-Layer Theory, and Hoerner, Fluid-Dynamic Drag (1965); above Re 8e5

@@ -31,7 +31,7 @@ impl RotorBlock {
         .advance(inputs, &memory, duration);
         if is_current
             && !rotor.has_memory(point)
-            && !rotor.evaluate(point, &memory.state).shows_blades()
+            && !rotor.evaluate(point, &memory.state).is_individual()
             && let Ok(advanced) = advanced
         {
             // Nothing changes but the azimuth, on which the loads of a disc do not depend.

@@ -4,7 +4,7 @@
 //! and again where the inputs change. A communication point between two grid points is reached
 //! exactly, by a shorter step from the grid point before it. While the inputs stay constant, the
 //! next step continues from that grid point and not from the communication point. So constant
-//! inputs give the same answer, up to the rounding of times, for every communication step. Inputs
+//! inputs give the same result, up to the rounding of times, for every communication step. Inputs
 //! that move within a communication step begin a grid of their own at its beginning.
 
 use rotor::{Drive, OperatingPoint, Rotor, SolveError, State, Workspace};

@@ -36,7 +36,7 @@ impl OutsideDataNotice {
                 };
                 return Some(format!(
                     "{name} numbers {} at the blades, but {} in the airfoil file of {:?}; outside its range the nearest data are used{drag}; this is said once",
-                    shown(found.met),
+                    shown(found.at_blades),
                     shown(found.file),
                     found.airfoil.name()
                 ));

@@ -36,14 +36,14 @@ use core::{
 };
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de::Error};
 
-/// A value reference of a variable that exists. It is the variable's place in the table of its
+/// A value reference of a variable that exists. It is the variable's index in the table of its
 /// base type and in the arrays of values.
 pub trait Reference: Copy + Into<u32> + 'static {
     type Value: 'static;
     /// The base type, as messages name it.
     const BASE_TYPE: &'static str;
 
-    fn place(self) -> usize;
+    fn index(self) -> usize;
     fn variable(self) -> &'static Variable<Self::Value>;
 }
 
@@ -61,9 +61,9 @@ macro_rules! references {
 
         impl $name {
             /// For the constants of the generated table.
-            pub(super) const fn at(place: u32) -> Self {
-                assert!((place as usize) < $table.len());
-                Self(place)
+            pub(super) const fn at(index: u32) -> Self {
+                assert!((index as usize) < $table.len());
+                Self(index)
             }
 
             /// The number that FMI passes for it.
@@ -86,7 +86,7 @@ macro_rules! references {
             type Value = $value;
             const BASE_TYPE: &'static str = $base_type;
 
-            fn place(self) -> usize {
+            fn index(self) -> usize {
                 self.0 as usize
             }
 
@@ -167,13 +167,13 @@ impl<R: Reference, T, const N: usize> Index<R> for PerVariable<R, T, N> {
     type Output = T;
 
     fn index(&self, reference: R) -> &T {
-        &self.values[reference.place()]
+        &self.values[reference.index()]
     }
 }
 
 impl<R: Reference, T, const N: usize> IndexMut<R> for PerVariable<R, T, N> {
     fn index_mut(&mut self, reference: R) -> &mut T {
-        &mut self.values[reference.place()]
+        &mut self.values[reference.index()]
     }
 }
 

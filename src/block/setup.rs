@@ -232,7 +232,7 @@ fn section(values: &Values) -> Result<SectionModel, SetupError> {
     })
 }
 
-/// How the blades are held. Fails if they flap and the other models do not allow it.
+/// The flapping hinges. Fails if the blades flap and the other models do not allow it.
 fn hinge(
     values: &Values,
     geometry: &Geometry,

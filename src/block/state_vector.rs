@@ -31,7 +31,7 @@ pub fn to_vector<S: Scalar>(state: &State<S>) -> StateVector<S> {
     vector
 }
 
-/// What `to_vector` made a list of.
+/// The inverse of `to_vector`.
 pub fn from_vector<S: Scalar>(vector: &StateVector<S>) -> State<S> {
     let mut state = State {
         azimuth: vector[0],

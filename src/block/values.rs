@@ -198,7 +198,7 @@ impl Values {
             }
         }
         for (name, value) in names.iter().zip(values) {
-            slopes[name.reference()?.place()] = *value;
+            slopes[name.reference()?.index()] = *value;
         }
         Ok(())
     }
@@ -376,8 +376,8 @@ mod tests {
         );
         let error = set(&mut values, real::THRUST, 1.0).unwrap_err();
         assert_eq!(error, ValueError::Output { name: "thrust" });
-        let place = boolean::FLAPPING__ENABLED;
-        let error = values.set_booleans(Stage::Running, &[place], &[1]);
+        let enabled = boolean::FLAPPING__ENABLED;
+        let error = values.set_booleans(Stage::Running, &[enabled], &[1]);
         assert!(
             error
                 .unwrap_err()

@@ -6,7 +6,7 @@
 
 pub use super::references::{BooleanRef, IntegerRef, RealRef, StringRef};
 
-/// What a variable is for.
+/// The role of a variable, as in FMI.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Causality {
     Input,

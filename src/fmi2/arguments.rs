@@ -1,4 +1,4 @@
-//! What an importer passes behind pointers: arrays, places for answers, and strings.
+//! What an importer passes behind pointers: arrays, memory for results, and strings.
 //!
 //! Before a reference is made, a pointer is checked for null, for alignment and for a size that
 //! memory can have. Only the importer knows whether the memory is there.
@@ -53,7 +53,7 @@ pub unsafe fn elements<'a, T>(
     Ok(unsafe { slice::from_raw_parts(pointer, count) })
 }
 
-/// Room for `count` answers behind a pointer, which the importer need not have initialised.
+/// Room for `count` results behind a pointer, which the importer need not have initialised.
 ///
 /// # Safety
 /// If `pointer` passes `check`, it points to memory for `count` elements that lives as long as the
@@ -71,14 +71,17 @@ pub unsafe fn room<'a, T>(
     Ok(unsafe { slice::from_raw_parts_mut(pointer.cast(), count) })
 }
 
-/// As `room`, for one answer.
+/// As `room`, for one result.
 ///
 /// # Safety
 /// As `room`.
-pub unsafe fn place<'a, T>(pointer: *mut T, what: &str) -> Result<&'a mut MaybeUninit<T>, Message> {
+pub unsafe fn room_for_one<'a, T>(
+    pointer: *mut T,
+    what: &str,
+) -> Result<&'a mut MaybeUninit<T>, Message> {
     if pointer.is_null() {
         return Err(Message::Error(format!(
-            "{what} is a null pointer; pass a place for the answer"
+            "{what} is a null pointer; pass the address of a variable for the result"
         )));
     }
     check_alignment(pointer, what)?;
@@ -86,17 +89,17 @@ pub unsafe fn place<'a, T>(pointer: *mut T, what: &str) -> Result<&'a mut MaybeU
     Ok(unsafe { &mut *pointer.cast() })
 }
 
-/// Fills room with answers, one after the other.
-pub fn fill<T>(room: &mut [MaybeUninit<T>], answers: impl IntoIterator<Item = T>) {
-    for (slot, answer) in room.iter_mut().zip(answers) {
-        slot.write(answer);
+/// Fills room with results, one after the other.
+pub fn fill<T>(room: &mut [MaybeUninit<T>], results: impl IntoIterator<Item = T>) {
+    for (slot, result) in room.iter_mut().zip(results) {
+        slot.write(result);
     }
 }
 
 /// The text behind a C string.
 ///
 /// # Safety
-/// `text` is null or a C string that lives as long as the answer.
+/// `text` is null or a C string that lives as long as the result.
 pub unsafe fn text<'a>(text: fmi2String, what: &str) -> Result<&'a str, Message> {
     if text.is_null() {
         return Err(Message::Error(format!(

@@ -3,7 +3,7 @@
 #![allow(non_snake_case)]
 
 use super::{
-    arguments::{elements, fill, place, room},
+    arguments::{elements, fill, room, room_for_one},
     instance::{Instance, Message, Outcome, call, refuse},
     legality::Function,
     types::*,
@@ -134,7 +134,7 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
 
 // ------------------------------------------------------------------ status
 
-/// Answers one kind of status and refuses the others. Steps end within fmi2DoStep, so nothing is
+/// Returns one kind of status and refuses the others. Steps end within fmi2DoStep, so nothing is
 /// ever pending.
 ///
 /// # Safety
@@ -148,11 +148,11 @@ unsafe fn status<T>(
     let body = |instance: &mut Instance| -> Outcome {
         let answer = answer(instance).ok_or_else(|| {
             Message::Error(
-                "this function does not answer that kind of status; see fmi2StatusKind".into(),
+                "this function does not return that kind of status; see fmi2StatusKind".into(),
             )
         })?;
         // SAFETY: passed on from the caller.
-        unsafe { place(value, "value")? }.write(answer);
+        unsafe { room_for_one(value, "value")? }.write(answer);
         Ok(())
     };
     // SAFETY: passed on from the caller.

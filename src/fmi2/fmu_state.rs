@@ -6,7 +6,7 @@
 #![allow(non_snake_case)]
 
 use super::{
-    arguments::{self, elements, fill, place, room},
+    arguments::{elements, fill, room, room_for_one},
     handle::{self, Marked},
     instance::{Experiment, Instance, Message, Outcome, call, refuse},
     legality::{Function, Interface, States},
@@ -79,19 +79,19 @@ unsafe fn living<'a>(pointer: fmi2FMUstate) -> Result<&'a mut FmuState, Message>
 /// The importer's variable for a state, which holds null or a state.
 ///
 /// # Safety
-/// `place` is null or points to a pointer.
-unsafe fn variable<'a>(place: *mut fmi2FMUstate) -> Result<&'a mut fmi2FMUstate, Message> {
+/// `address` is null or points to a pointer.
+unsafe fn variable<'a>(address: *mut fmi2FMUstate) -> Result<&'a mut fmi2FMUstate, Message> {
     // SAFETY: passed on from the caller; by the contract above it is initialised.
-    Ok(unsafe { arguments::place(place, "FMUstate")?.assume_init_mut() })
+    Ok(unsafe { room_for_one(address, "FMUstate")?.assume_init_mut() })
 }
 
 /// Stores a state where the importer keeps it: over the state that is there, else in new memory.
 ///
 /// # Safety
-/// As `variable`; `*place` as in `living`.
-unsafe fn store(place: *mut fmi2FMUstate, state: FmuState) -> Outcome {
+/// As `variable`; `*address` as in `living`.
+unsafe fn store(address: *mut fmi2FMUstate, state: FmuState) -> Outcome {
     // SAFETY: passed on from the caller.
-    let pointer = unsafe { variable(place)? };
+    let pointer = unsafe { variable(address)? };
     if pointer.is_null() {
         *pointer = handle::create(state);
     } else {
@@ -170,7 +170,7 @@ pub unsafe extern "C" fn fmi2SerializedFMUstateSize(
 ) -> fmi2Status {
     let body = |_: &mut Instance| {
         // SAFETY: passed on from the caller.
-        let (size, state) = unsafe { (place(size, "size")?, living(state)?) };
+        let (size, state) = unsafe { (room_for_one(size, "size")?, living(state)?) };
         size.write(state.to_bytes()?.len());
         Ok(())
     };

@@ -22,7 +22,7 @@ pub struct Instance {
     pub state: States,
     pub block: RotorBlock,
     pub logger: Logger,
-    /// What fmi2GetString answered; valid until the next call.
+    /// The strings that fmi2GetString returned; valid until the next call.
     pub strings: PerVariable<StringRef, CString, { STRINGS.len() }>,
     pub experiment: Experiment,
 }

@@ -81,7 +81,7 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
             // SAFETY: passed on from the caller.
             let name = unsafe { text(*category, "a category")? };
             match LOG_CATEGORIES.iter().position(|known| *known == name) {
-                Some(place) => chosen[place] = true,
+                Some(index) => chosen[index] = true,
                 None => unknown.push(name),
             }
         }

@@ -6,7 +6,7 @@
 #![allow(non_snake_case)]
 
 use super::{
-    arguments::{elements, fill, place, room},
+    arguments::{elements, fill, room, room_for_one},
     instance::{Instance, Message, Outcome, call, refuse},
     legality::{CONTINUOUS_TIME_MODE, EVENT_MODE, Function},
     types::*,
@@ -37,7 +37,7 @@ pub unsafe extern "C" fn fmi2NewDiscreteStates(
 ) -> fmi2Status {
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
-        let info = unsafe { place(info, "eventInfo")? };
+        let info = unsafe { room_for_one(info, "eventInfo")? };
         instance.block.update()?;
         let answer = fmi2EventInfo {
             newDiscreteStatesNeeded: FMI2_FALSE,
@@ -68,7 +68,7 @@ pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(c: fmi2Component) -> fmi2St
 }
 
 /// # Safety
-/// As in the standard: the two answers may be written.
+/// As in the standard: the two results may be written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
     c: fmi2Component,
@@ -80,8 +80,8 @@ pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
         // SAFETY: passed on from the caller.
         let (event, end) = unsafe {
             (
-                place(enterEventMode, "enterEventMode")?,
-                place(terminateSimulation, "terminateSimulation")?,
+                room_for_one(enterEventMode, "enterEventMode")?,
+                room_for_one(terminateSimulation, "terminateSimulation")?,
             )
         };
         event.write(instance.block.has_event()?.into());
@@ -177,7 +177,7 @@ pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(
     unsafe { state_vector(c, function, x_nominal, nx, answer) }
 }
 
-/// Answers with one number for each continuous state.
+/// Returns one number for each continuous state.
 ///
 /// # Safety
 /// As `call`; `out` has `count` elements.
@@ -191,7 +191,7 @@ unsafe fn state_vector(
     let body = |instance: &mut Instance| {
         check_count(count, STATES.len(), "continuous states")?;
         // SAFETY: passed on from the caller.
-        let out = unsafe { room(out, count, "the vector for the answer")? };
+        let out = unsafe { room(out, count, "the vector for the result")? };
         fill(out, answer(instance)?);
         Ok(())
     };

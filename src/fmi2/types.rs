@@ -28,7 +28,7 @@ pub const FMI2_TERMINATED: fmi2Enumeration = 3;
 
 pub const FMI2_FALSE: fmi2Boolean = 0;
 
-/// What a function answers. Three statuses are never answered: `fmi2Discard`, because no step may
+/// The status that a function returns. Three are never returned: `fmi2Discard`, because no step may
 /// be repeated with a smaller size; `fmi2Fatal`, because no error affects other instances;
 /// `fmi2Pending`, because no step runs asynchronously.
 #[repr(C)]

@@ -2,8 +2,7 @@
 
 use super::{geometry::Elements, scalar::Scalar};
 
-/// The loads and the flow at a blade element: those of blade 1, or averages over one revolution in
-/// the disc. SI units, rad.
+/// The loads and the flow at a blade element: those of blade 1, or azimuth averages. SI units, rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ElementLoads<S = f64> {
     /// Thrust per unit of radius times the number of blades, N/m.
@@ -14,7 +13,8 @@ pub struct ElementLoads<S = f64> {
     pub angle_of_attack: S,
     /// Induced velocity at the blades, positive down, m/s.
     pub induced_velocity: S,
-    /// Mean induced velocity around the annulus, m/s: tip loss makes the difference.
+    /// Mean induced velocity around the annulus, m/s. Prandtl's F in the momentum makes it less than
+    /// that at the blades.
     pub mean_induced_velocity: S,
     /// Speed of the flow at the section, m/s.
     pub speed: S,

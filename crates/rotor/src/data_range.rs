@@ -6,7 +6,7 @@ use super::{
     rotor::Rotor,
 };
 
-/// An airfoil that meets Reynolds or Mach numbers outside its data.
+/// An airfoil that is used at Reynolds or Mach numbers outside its data.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OutsideData<'a> {
     /// The first such airfoil in the order of their use along the blade.
@@ -14,24 +14,28 @@ pub struct OutsideData<'a> {
     /// Lowest and highest number in its file.
     pub file: (f64, f64),
     /// Lowest and highest number at the elements with this airfoil.
-    pub met: (f64, f64),
+    pub at_blades: (f64, f64),
 }
 
 impl Rotor {
-    /// The first airfoil that meets numbers outside its data under these loads, one for each
-    /// element. Allocates nothing. Elements in still air do not count.
+    /// The first airfoil that is used outside its data; `loads` has one entry for each element.
+    /// Allocates nothing. Elements in still air do not count.
     pub fn outside_data(&self, loads: &[ElementLoads], axis: Axis) -> Option<OutsideData<'_>> {
         let airfoils = self.airfoils().iter().enumerate();
         airfoils.into_iter().find_map(|(index, airfoil)| {
             let file = airfoil.range(axis)?;
-            let met = self.met(loads, index, axis)?;
-            let is_outside = met.0 < file.0 || met.1 > file.1;
-            is_outside.then_some(OutsideData { airfoil, file, met })
+            let at_blades = self.at_blades(loads, index, axis)?;
+            let is_outside = at_blades.0 < file.0 || at_blades.1 > file.1;
+            is_outside.then_some(OutsideData {
+                airfoil,
+                file,
+                at_blades,
+            })
         })
     }
 
     /// Lowest and highest number at the elements that use an airfoil.
-    fn met(&self, loads: &[ElementLoads], airfoil: usize, axis: Axis) -> Option<(f64, f64)> {
+    fn at_blades(&self, loads: &[ElementLoads], airfoil: usize, axis: Axis) -> Option<(f64, f64)> {
         let elements = self.elements();
         let mut range = None;
         for (i, load) in loads.iter().enumerate() {

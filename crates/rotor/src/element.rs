@@ -59,15 +59,15 @@ pub enum LossIn {
 /// The loads of one blade's section per unit of radius, N/m, and the flow at it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionLoad<S = f64> {
-    /// Along the shaft, up.
+    /// Along n, perpendicular to the blade, positive up.
     pub normal: S,
-    /// In the disc, against the motion of the blade.
+    /// Against e_t, the direction of the blade's motion.
     pub tangential: S,
     /// Angle of attack, rad, between -pi and pi.
     pub angle_of_attack: S,
     /// Speed of the flow, m/s.
     pub speed: S,
-    /// Averaged over the element, with its tip loss.
+    /// Lift coefficient averaged over the element, with its tip loss.
     pub lift_coefficient: S,
     /// Drag coefficient.
     pub drag_coefficient: S,

@@ -33,9 +33,9 @@ pub struct Evaluation<'a, S = f64> {
     /// In wind axes.
     pub(crate) inflow_states: InflowStates<S>,
     pub(crate) positions: BladePositions<S>,
-    /// Whether the positions are those of the blades, rather than stations for an azimuth average.
+    /// Whether the positions are those of the blades, rather than those of an azimuth average.
     pub(crate) is_individual: bool,
-    /// Of blades that flap here.
+    /// None for rigid blades.
     pub(crate) freedom: Option<&'a Freedom>,
 }
 
@@ -101,7 +101,7 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
             cyclic_sin,
             hinge: rotor.models().hinge.offset,
         };
-        // An asymmetry that dies away never quite vanishes.
+        // A decaying asymmetry never becomes exactly 0.
         let speeds =
             flow.rotation.abs() * rotor.geometry().radius + flow.edgewise + flow.climb.abs();
         let limit = SYMMETRIC * speeds.value();
@@ -116,7 +116,7 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
         let positions = if is_individual {
             blade_positions(rotor, &axes, state, freedom)
         } else {
-            stations(rotor, is_symmetric)
+            averaging_positions(rotor, is_symmetric)
         };
         Self {
             rotor,
@@ -134,12 +134,12 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
 
     /// Whether the response is that of blades at their azimuths, rather than an average over one
     /// revolution.
-    pub fn shows_blades(&self) -> bool {
+    pub fn is_individual(&self) -> bool {
         self.is_individual
     }
 
-    /// Whether the states go on changing for ever, because blades meet other air at each azimuth or
-    /// a torque drives them.
+    /// Whether the states never become constant: the flow at each blade varies with azimuth, or a
+    /// torque drives the rotor.
     pub fn never_settles(&self) -> bool {
         let turns =
             self.point.speed.value() != 0.0 && self.is_individual && !self.flow.is_axisymmetric();
@@ -175,7 +175,7 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
         }
     }
 
-    /// The stream that carries the wake of dynamic inflow away.
+    /// The flow that carries the wake of dynamic inflow away.
     pub(crate) fn stream(&self) -> Stream<S> {
         Stream {
             edgewise: self.flow.edgewise,
@@ -185,7 +185,7 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
         }
     }
 
-    /// What acts on a blade whose air load has this moment about the hinge, N.m.
+    /// What acts on a blade whose aerodynamic loads have this moment about the hinge, N.m.
     pub(crate) fn action(&self, moment: S) -> Action<S> {
         Action {
             moment,
@@ -195,7 +195,7 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
     }
 }
 
-/// The blades where they are.
+/// The positions of the blades.
 fn blade_positions<S: Scalar>(
     rotor: &Rotor,
     axes: &WindAxes<S>,
@@ -218,13 +218,13 @@ fn blade_positions<S: Scalar>(
     }))
 }
 
-/// The stations on the azimuth to average over: a single one without direction where all azimuths
+/// The positions over which the disc is averaged: a single one without direction where all azimuths
 /// are alike.
-fn stations<S: Scalar>(rotor: &Rotor, is_symmetric: bool) -> BladePositions<S> {
+fn averaging_positions<S: Scalar>(rotor: &Rotor, is_symmetric: bool) -> BladePositions<S> {
     if is_symmetric {
         return BladePositions::new([rigid(rotor, Azimuth::any())].into_iter());
     }
-    BladePositions::new(rotor.stations().iter().map(|azimuth| {
+    BladePositions::new(rotor.azimuths().iter().map(|azimuth| {
         let (sin, cos) = (S::constant(azimuth.sin), S::constant(azimuth.cos));
         rigid(rotor, Azimuth { sin, cos })
     }))

@@ -13,15 +13,15 @@
 //!            - h S sin beta (w_r^2 + w_t^2 + W^2),        w_t' = -Omega w_r
 //! ```
 //!
-//! M is the moment of the air and k the spring, which pulls towards the precone beta_p. For small
-//! angles and a hub at rest the flapping frequency is Omega sqrt(1 + h S/I + k/(I Omega^2)),
-//! h S/I = 3/2 e/(1 - e).
+//! M is the aerodynamic moment and k the stiffness of the spring, which pulls towards the precone
+//! beta_p. For small angles and a hub at rest the flapping frequency is Omega sqrt(1 + h S/I + k/(I
+//! Omega^2)), h S/I = 3/2 e/(1 - e).
 //!
 //! Assumptions. The hub's velocity and angular velocity change slowly enough that their derivatives
 //! do not act on the blades. The hub feels each blade through its spring and, at the offset,
-//! through the forces of the air and of the blade's inertia. In the disc it feels the air alone,
-//! because inertia forces cancel over one revolution. The weight of the blades belongs to the
-//! vehicle's weight.
+//! through the aerodynamic and inertia forces of the blade. With azimuth averages it feels the
+//! aerodynamic forces alone, because inertia forces cancel over one revolution. The weight of the
+//! blades belongs to the vehicle's weight.
 
 use super::{
     disc::{BladePosition, DiscFlow},
@@ -31,7 +31,7 @@ use super::{
 use core::f64::consts::PI;
 use nalgebra::Vector3;
 
-/// How the blades are held. Blades that do not flap are rigid at the precone angle.
+/// The flapping hinges. Blades that do not flap are rigid at the precone angle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Hinge {
     /// Distance of the hinges from the shaft, m.
@@ -56,7 +56,7 @@ pub struct Freedom {
 /// What acts on a blade besides its own motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Action<S = f64> {
-    /// Moment of the air about the hinge, up, N.m.
+    /// Aerodynamic moment about the hinge, positive up, N.m.
     pub moment: S,
     /// Stiffness of the hinge, N.m/rad.
     pub spring: S,
@@ -99,7 +99,7 @@ impl Freedom {
         (action.moment - spring + weight + turning - across - centrifugal) / self.inertia
     }
 
-    /// The moment of a blade on the hub about -e_t (up) less that of the air about the hub's
+    /// The moment of a blade on the hub about -e_t (up) less the aerodynamic moment about the hub's
     /// centre, N.m: k (beta - beta_p) - M - h integral of a_z dm.
     pub fn hub_moment_excess<S: Scalar>(
         &self,
@@ -127,8 +127,9 @@ impl Freedom {
         spring - action.moment - inertia * hinge.offset
     }
 
-    /// An estimate of how fast a blade swings and comes to rest, 1/s, with a lift slope of 2 pi:
-    /// `chord` (m) is the largest of the blade, `speed` (m/s) that of the air at its tip.
+    /// An estimate of the rates of a blade's flapping, frequency plus damping, 1/s, with a lift
+    /// slope of 2 pi: `chord` (m) is the largest of the blade, `speed` (m/s) that of the air at its
+    /// tip.
     pub fn fastest_rate(
         &self,
         hinge: &Hinge,

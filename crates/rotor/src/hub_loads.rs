@@ -1,4 +1,4 @@
-//! Loads on the hub, and what belongs to the rotor as a whole.
+//! Hub loads: force and moment on the hub, and quantities of the rotor as a whole.
 
 use super::{
     evaluation::Evaluation, inflow::FlowState, loads::DiscLoads, operating_point::Drive,
@@ -7,8 +7,8 @@ use super::{
 use core::f64::consts::PI;
 use nalgebra::Vector3;
 
-/// Loads on the hub at the present azimuth, or as averages over one revolution in the disc. SI
-/// units, vectors in the hub frame.
+/// Hub loads at the present azimuth, or averaged over one revolution. SI units, vectors in the hub
+/// frame.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HubLoads<S = f64> {
     /// Force on the hub, N.
@@ -30,7 +30,7 @@ pub struct HubLoads<S = f64> {
 }
 
 impl<S: Scalar> HubLoads<S> {
-    /// From the loads of the air on the disc.
+    /// From the aerodynamic loads of the disc.
     ///
     /// A clockwise rotor is computed as the mirror image of a counter-clockwise one, and mirrored
     /// back here.
@@ -52,8 +52,8 @@ impl<S: Scalar> HubLoads<S> {
                 moment += Vector3::new(-position.azimuth.sin, position.azimuth.cos, S::zero()) * up;
             }
         }
-        // A free shaft hands on to the hub only the torque that drives it; the rest changes the
-        // rotor's speed.
+        // A shaft that a torque drives transmits only this torque to the hub; the difference to the
+        // rotor's torque changes the rotor speed.
         let around = match point.drive {
             Drive::Speed => moment.z,
             Drive::Torque { torque, .. } => -torque,

@@ -1,8 +1,8 @@
-//! The physics of a helicopter rotor: plain structures and functions in SI units and radians.
-//! Nothing here knows of FMI.
+//! The physics of a helicopter rotor: plain structures and functions in SI units and radians,
+//! independent of FMI.
 //!
-//! A `Rotor` is a definition that never changes. It answers a `Response` at an `OperatingPoint` in
-//! a `State`, computed in a `Workspace`, in plain numbers or in dual ones that carry exact
+//! A `Rotor` is a definition that never changes. Its `Response` at an `OperatingPoint` in a `State`
+//! is computed in a `Workspace`, in plain numbers or in dual numbers, which carry exact
 //! derivatives.
 //!
 //! ```
@@ -22,7 +22,7 @@
 //! let hub = rotor.steady(&point)?;
 //! assert!((hub.force.z - 65.8).abs() < 0.1, "{} N", hub.force.z);
 //!
-//! // The same in numbers of one's own choosing, with rates of the states and loads along the blade.
+//! // The same in a workspace that can be used again, with rates of the states and blade loads.
 //! let mut workspace = Workspace::new(&rotor);
 //! let response = rotor.respond(&point, &Default::default(), &mut workspace)?;
 //! assert_eq!(response.hub.force, hub.force);
@@ -47,7 +47,7 @@
 //!   `response`, `step`, `start`
 
 #![warn(missing_docs)]
-// A new model makes the compiler list what it has to answer.
+// A new model makes the compiler list what it has to define.
 #![warn(clippy::wildcard_enum_match_arm)]
 
 pub mod air;

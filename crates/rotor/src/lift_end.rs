@@ -1,4 +1,5 @@
-//! Where the lift of the blades ends, for the tip losses that end it.
+//! The aerodynamic loads of the disc, with the radius at which the lift ends where it depends on
+//! the thrust.
 
 use super::{
     error::SolveError,
@@ -14,8 +15,8 @@ use core::f64::consts::PI;
 /// Tolerance of the thrust coefficient on which the end of the lift depends.
 const THRUST_TOLERANCE: f64 = 1e-13;
 
-/// The loads of the air on the disc, with the lift of the blades ending where the tip loss says.
-/// The workspace gets the loads of the elements.
+/// The aerodynamic loads of the disc, with the lift ending where the tip loss model says. The loads
+/// of the elements are written to the workspace.
 pub(crate) fn disc_loads<S: Scalar>(
     evaluation: &Evaluation<S>,
     workspace: &mut Workspace<S>,
@@ -38,8 +39,9 @@ pub(crate) fn disc_loads<S: Scalar>(
         end_lift_at(end, rotor.geometry(), rotor.elements(), lifting_shares);
         DiscLoads::new(evaluation, lifting_shares, elements)
     };
-    // More thrust ends the lift earlier, which makes less thrust. A rotor that hardly turns has the
-    // airspeed in its coefficient in addition to a tip speed, which the formula does not know.
+    // More thrust ends the lift further inboard, which reduces the thrust: there is one solution.
+    // The published coefficient is over the tip speed alone. Here the airspeed is added to it, so
+    // that the coefficient of a slow or stopped rotor stays finite.
     let radius = rotor.geometry().radius;
     let tip_speed = point.speed * radius;
     let air = &point.airspeed;
@@ -59,7 +61,7 @@ pub(crate) fn disc_loads<S: Scalar>(
         at,
         residual: plain(at),
     };
-    // The thrust is largest with no lift lost. At the largest coefficient no lift is left.
+    // The thrust is largest if no lift is lost, at CT = 0. At CT = N^2 no lift is left.
     let first = end(0.0);
     let mut last = end(first.residual.clamp(0.0, blades * blades));
     if last.residual > 0.0 {
@@ -68,7 +70,7 @@ pub(crate) fn disc_loads<S: Scalar>(
     let solved = if first.residual <= 0.0 {
         Ok(S::zero())
     } else if last.residual >= 0.0 {
-        Ok(S::constant(blades * blades)) // the drag alone exceeds it
+        Ok(S::constant(blades * blades)) // even without lift the thrust is larger: drag
     } else {
         bracketed(plain, first, last, THRUST_TOLERANCE)
             .map(|coefficient| S::at_root(coefficient, surplus))

@@ -1,5 +1,5 @@
-//! The loads of the air on the disc: all elements at all blade positions, in what the inflow model
-//! induces.
+//! The aerodynamic loads of the disc: all elements at all blade positions, in the induced velocity
+//! of the inflow model.
 
 use super::{
     blade_loads::ElementLoads,
@@ -12,7 +12,7 @@ use super::{
 };
 use nalgebra::Vector3;
 
-/// The loads of the air summed over elements and averaged over blade positions, in wind axes.
+/// The aerodynamic loads summed over elements and averaged over blade positions, in wind axes.
 #[derive(Debug, Clone)]
 pub(crate) struct DiscLoads<S = f64> {
     /// Force, N.
@@ -21,25 +21,25 @@ pub(crate) struct DiscLoads<S = f64> {
     pub(crate) moment: Vector3<S>,
     /// Moment about one blade's hinge at each position, N.m.
     pub(crate) hinge_moments: [S; AZIMUTHS],
-    /// What drives the states of an inflow series, m2/s2.
+    /// The loading that drives the states of Peters & He's wake, m2/s2; 0 in other models.
     pub(crate) inflow_loading: InflowStates<S>,
     /// Sum over the elements of mean induced velocity times radius, m2/s.
     pub(crate) flux: S,
     /// Sum over the elements of the radius, m.
     pub(crate) area: f64,
-    /// Number of elements that are stalled, on average over the positions.
+    /// Number of stalled elements, averaged over the positions.
     pub(crate) stalled: f64,
     /// r/R of the outermost element that is stalled anywhere.
     pub(crate) stalled_radius: f64,
 }
 
 impl<S: Scalar> DiscLoads<S> {
-    /// With the lift of the elements ending as `lifting_shares` say. `loads` gets the loads of each
-    /// element.
+    /// Computes the loads and writes those of each element to `elements`. `lifting_shares` are the
+    /// fractions of the elements that carry lift.
     pub(crate) fn new(
         evaluation: &Evaluation<S>,
         lifting_shares: &[S],
-        loads: &mut [ElementLoads<S>],
+        elements: &mut [ElementLoads<S>],
     ) -> Result<Self, SolveError> {
         let mut sums = Self {
             force: Vector3::zeros(),
@@ -54,7 +54,7 @@ impl<S: Scalar> DiscLoads<S> {
         let disc = evaluation.disc(lifting_shares);
         let inflow = &evaluation.rotor.models().inflow;
         let induction = inflow.induction(&disc, &evaluation.inflow_states)?;
-        for (i, load) in loads.iter_mut().enumerate() {
+        for (i, load) in elements.iter_mut().enumerate() {
             let element = disc.blade.element(i);
             let mut sweep = Sweep::new(&element, disc.flow, disc.positions, disc.is_individual);
             let mean_induced = induction.load(&disc, i, &element, &mut sweep)?;

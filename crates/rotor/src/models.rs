@@ -19,7 +19,7 @@ pub struct Models {
     pub ground_effect: GroundEffect,
     /// Blades one by one, or averages over one revolution.
     pub blades: Blades,
-    /// How the blades are held.
+    /// The flapping hinges.
     pub hinge: Hinge,
     /// Loss of lift at the ends of the blade.
     pub tip_loss: TipLoss,
@@ -28,7 +28,7 @@ pub struct Models {
 }
 
 impl Default for Models {
-    /// The models of the FMU that sets nothing: annuli, the measured law of descent, rigid blades,
+    /// The FMU's default models: annuli, the measured law of descent, rigid blades,
     /// Prandtl's tip loss, airfoil tables with Prandtl and Glauert's rule.
     fn default() -> Self {
         Self {

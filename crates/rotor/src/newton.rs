@@ -21,7 +21,7 @@ pub enum Use {
     Slopes,
 }
 
-/// The place where `residual` is 0, searched from `start`; none if the search fails within the
+/// The root of `residual`, searched from `start`; none if the search fails within the
 /// method's bounds. All unknowns and residuals are of the order of 1.
 ///
 /// The slopes are differences; from step to step Broyden's formula (1965, Math. Comp. 19, p. 577)

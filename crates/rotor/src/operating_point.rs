@@ -1,4 +1,4 @@
-//! What the rotor is asked to do, and the air it does it in.
+//! The operating point: what is imposed on the rotor.
 
 use super::{
     air::{Air, STANDARD_GRAVITY},
@@ -7,13 +7,13 @@ use super::{
 };
 use nalgebra::Vector3;
 
-/// An operating point: controls, motion of the hub and air. SI units, rad; vectors in the hub frame
-/// (x forward, y left, z up along the shaft).
+/// What is imposed on the rotor: controls, rotor speed or torque, motion and height of the hub, and
+/// air. SI units, rad; vectors in the hub frame (x forward, y left, z up along the shaft).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OperatingPoint<S = f64> {
     /// Blade pitch at the reference radius, rad. With cyclic control it is collective -
-    /// cyclic_lateral cos(psi) - cyclic_longitudinal sin(psi), psi from the tail in the turning
-    /// sense.
+    /// cyclic_lateral cos(psi) - cyclic_longitudinal sin(psi), psi from the tail in the
+    /// direction of rotation.
     pub collective: S,
     /// See `collective`, rad.
     pub cyclic_longitudinal: S,
@@ -32,13 +32,13 @@ pub struct OperatingPoint<S = f64> {
     pub hinge_spring: S,
     /// Height of the hub above the ground, m, >= 0.
     pub height: S,
-    /// What turns the rotor.
+    /// Whether speed or torque is imposed.
     pub drive: Drive<S>,
     /// The air around the rotor.
     pub air: Air<S>,
 }
 
-/// What turns the rotor.
+/// Whether speed or torque is imposed on the rotor.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Drive<S = f64> {
     /// The speed is imposed, whatever torque that takes.
@@ -46,14 +46,14 @@ pub enum Drive<S = f64> {
     Speed,
     /// A torque; the rotor speed is a state.
     Torque {
-        /// N.m, positive in the turning sense.
+        /// N.m, positive in the direction of rotation.
         torque: S,
         /// Moment of inertia about the shaft of everything that turns, kg.m2, > 0.
         inertia: f64,
     },
 }
 
-/// Height of the hub above the ground at which no ground effect is felt, m.
+/// Height of the hub above the ground at which there is no ground effect, m.
 const FAR_FROM_GROUND: f64 = 1000.0;
 
 impl OperatingPoint {

@@ -1,4 +1,4 @@
-//! How the states of the rotor change in time.
+//! Rates of change of the states.
 
 use super::{
     evaluation::Evaluation, inflow::DiscLoading, loads::DiscLoads, operating_point::Drive,
@@ -6,7 +6,7 @@ use super::{
 };
 use core::f64::consts::PI;
 
-/// Rates of the states, per second, under the loads of the air.
+/// Rates of the states, per second, under the aerodynamic loads.
 pub(crate) fn of<S: Scalar>(evaluation: &Evaluation<S>, loads: &DiscLoads<S>) -> State<S> {
     let Evaluation {
         rotor,
@@ -45,8 +45,8 @@ pub(crate) fn of<S: Scalar>(evaluation: &Evaluation<S>, loads: &DiscLoads<S>) ->
     rates
 }
 
-/// An estimate of how fast the states move towards their equilibrium, 1/s: inflow, flapping with
-/// the blades' lift as damper and, with delta3, as spring, and the speed with the lift as brake.
+/// An estimate of the fastest rate of the states, 1/s: that of the inflow, of flapping (which the
+/// lift damps and, with delta3, stiffens), and of the rotor speed (which the loads damp).
 pub(crate) fn fastest(evaluation: &Evaluation) -> f64 {
     let Evaluation {
         rotor, point, flow, ..

@@ -1,4 +1,4 @@
-//! What the rotor answers at an operating point in a state.
+//! The response of the rotor at an operating point in a state.
 
 use super::{
     blade_loads::BladeLoads, error::SolveError, hub_loads::HubLoads, lift_end::disc_loads,
@@ -6,12 +6,12 @@ use super::{
     workspace::Workspace,
 };
 
-/// The response of the rotor: loads on the hub, rates of the states, and loads along the blade.
+/// The response of the rotor: hub loads, rates of the states, and blade loads.
 ///
 /// The loads along the blade lie in the workspace in which the response was computed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Response<'a, S = f64> {
-    /// Loads on the hub and what belongs to the rotor as a whole.
+    /// Hub loads.
     pub hub: HubLoads<S>,
     /// Rates of the states, per second.
     pub rates: State<S>,
@@ -23,8 +23,8 @@ impl Rotor {
     /// The response at an operating point in a state. Allocates nothing, except in a workspace that
     /// was made for another rotor.
     ///
-    /// Fails where a momentum equation has no solution, which needs numbers that are not finite or
-    /// overflow.
+    /// Fails where a momentum equation has no solution, which happens only if numbers are not
+    /// finite or overflow.
     pub fn respond<'a, S: Scalar>(
         &'a self,
         point: &OperatingPoint<S>,
@@ -44,7 +44,7 @@ impl Rotor {
         })
     }
 
-    /// Rates of the states alone, per second; errors as of `respond`.
+    /// Rates of the states alone, per second. Fails as `respond` does.
     pub fn rates<S: Scalar>(
         &self,
         point: &OperatingPoint<S>,

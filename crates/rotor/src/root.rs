@@ -16,10 +16,10 @@ pub enum RootError {
     OutOfIterations,
 }
 
-/// One end of a bracket: a place, and the residual there.
+/// One end of a bracket: a value of the unknown, and the residual there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct End {
-    /// The place, in the unit of the unknown.
+    /// The value, in the unit of the unknown.
     pub at: f64,
     /// The residual there, in any unit.
     pub residual: f64,
@@ -35,7 +35,7 @@ pub struct End {
 ///
 /// * `first`, `last`: the ends, in either order. Their residuals steer only the first steps: where
 ///   just the sign at an end is known, any value of that sign will do.
-/// * `tolerance`: of the root, > 0, in the unit of the places; raised to their rounding
+/// * `tolerance`: of the root, > 0, in the unit of the unknown; at least the rounding of the ends
 ///
 /// # Errors
 ///

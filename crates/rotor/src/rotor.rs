@@ -1,4 +1,4 @@
-//! The definition of a rotor: what it is, apart from what it computes.
+//! The definition of a rotor: geometry, airfoils, blade elements and models.
 
 use super::{
     airfoil::Airfoil,
@@ -23,12 +23,12 @@ pub struct Rotor {
     /// lift ends.
     lifting_shares: Vec<f64>,
     /// The azimuths over which a disc without axial symmetry is averaged.
-    stations: [Azimuth; AZIMUTHS],
+    azimuths: [Azimuth; AZIMUTHS],
 }
 
 impl Rotor {
     /// From a checked geometry, its elements, its airfoils (one for each of `geometry.airfoils`)
-    /// and models. Blades that flap are at most `state::MAX_FLAPPING_BLADES`.
+    /// and models. A rotor whose blades flap has at most `state::MAX_FLAPPING_BLADES`.
     pub fn new(
         geometry: Geometry,
         elements: Elements,
@@ -46,7 +46,7 @@ impl Rotor {
             elements,
             models,
             lifting_shares,
-            stations: evenly_spaced(),
+            azimuths: evenly_spaced(),
         }
     }
 
@@ -70,14 +70,15 @@ impl Rotor {
         &self.models
     }
 
-    /// Fraction of each element that carries lift, 0 to 1, where no thrust is needed to know it.
+    /// Fraction of each element that carries lift, 0 to 1, where the blade's shape alone decides
+    /// where the lift ends.
     pub(crate) fn lifting_shares(&self) -> &[f64] {
         &self.lifting_shares
     }
 
     /// The azimuths over which a disc without axial symmetry is averaged.
-    pub(crate) fn stations(&self) -> &[Azimuth] {
-        &self.stations
+    pub(crate) fn azimuths(&self) -> &[Azimuth] {
+        &self.azimuths
     }
 
     /// -1 for a clockwise rotor, which is computed as its mirror image; else 1.

@@ -141,13 +141,13 @@ pub trait Scalar:
     /// Cosine and sine of the direction of the point (x, y). A point at the origin has the
     /// direction into which it leaves it, or none if it stays there.
     fn direction(x: Self, y: Self) -> Option<(Self, Self)>;
-    /// The root of an equation, already found at `place`, with its derivative.
+    /// The root of an equation, already found at `root`, with its derivative.
     ///
     /// A dual number gets the derivative by the implicit function theorem,
     /// dx = -(dR/dp) dp/(dR/dx), at the root and not through the search for it. Where the root lies
     /// at a corner of the residual, the slope is that of the side to which the root moves. The
     /// derivative is NaN where the residual does not change with x.
-    fn at_root(place: f64, residual: impl FnMut(Self) -> Self) -> Self;
+    fn at_root(root: f64, residual: impl FnMut(Self) -> Self) -> Self;
 }
 
 impl Scalar for f64 {
@@ -197,8 +197,8 @@ impl Scalar for f64 {
         let distance = libm::hypot(x, y);
         (distance != 0.0).then(|| (x / distance, y / distance))
     }
-    fn at_root(place: f64, _residual: impl FnMut(Self) -> Self) -> Self {
-        place
+    fn at_root(root: f64, _residual: impl FnMut(Self) -> Self) -> Self {
+        root
     }
 }
 
@@ -282,13 +282,13 @@ impl Scalar for Dual64 {
         let direction = f64::direction(x.eps, y.eps);
         direction.map(|(cos, sin)| (Self::from_re(cos), Self::from_re(sin)))
     }
-    fn at_root(place: f64, mut residual: impl FnMut(Self) -> Self) -> Self {
+    fn at_root(root: f64, mut residual: impl FnMut(Self) -> Self) -> Self {
         // Change of the residual if the root moves by `change`. It is linear in `change`,
         // except where corners meet at the root.
-        let mut surplus = |change: f64| residual(Self::new(place, change)).eps;
+        let mut surplus = |change: f64| residual(Self::new(root, change)).eps;
         let still = surplus(0.0);
         if still == 0.0 {
-            return Self::from_re(place);
+            return Self::from_re(root);
         }
         let (mut last, mut at) = ((1.0, surplus(1.0)), (0.0, still));
         let mut best = (f64::INFINITY, f64::NAN);
@@ -303,7 +303,7 @@ impl Scalar for Dual64 {
                 break;
             }
         }
-        Self::new(place, best.1)
+        Self::new(root, best.1)
     }
 }
 

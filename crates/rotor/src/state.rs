@@ -16,8 +16,8 @@ pub const MAX_INFLOW_STATES: usize = MAX_STATES;
 /// stay 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct State<S = f64> {
-    /// Azimuth of blade 1 from the tail in the turning sense, rad; it grows over the revolutions.
-    /// Blade k is (k - 1) 2 pi/N ahead.
+    /// Azimuth of blade 1 from the tail in the direction of rotation, rad. It keeps growing from
+    /// revolution to revolution. Blade k is (k - 1) 2 pi/N ahead.
     pub azimuth: S,
     /// Rotor speed against the hub while a torque drives it, rad/s.
     pub speed: S,
@@ -40,7 +40,7 @@ impl<S: Scalar> Default for State<S> {
 }
 
 impl State {
-    /// Largest difference to another state in anything but the azimuth: m/s, rad or rad/s.
+    /// Largest difference from another state, in m/s, rad or rad/s; the azimuth does not count.
     pub fn largest_change(&self, other: &Self) -> f64 {
         let inflow = self.inflow.iter().zip(&other.inflow);
         let flaps = self.flaps.iter().zip(&other.flaps);

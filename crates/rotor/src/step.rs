@@ -5,14 +5,14 @@ use super::{
     state::State, workspace::Workspace,
 };
 
-/// Largest product of a step and the states' fastest rate; Heun's method is stable to 1.7 for
+/// Maximum product of a step and the states' fastest rate; Heun's method is stable to 1.7 for
 /// undamped motion and 2.5 for damped.
 const MAX_PRODUCT: f64 = 1.0;
 
 impl Rotor {
     /// The state one step of `duration` s later, by Heun's method of order 3 (Heun 1900, Z. Math.
-    /// Phys. 45, p. 23). `point_at`: the operating point so many seconds after the beginning of the
-    /// step. Errors as of `respond`.
+    /// Phys. 45, p. 23). `point_at`: the operating point at a time (s) after the beginning of the
+    /// step. Fails as `respond` does.
     pub fn step<S: Scalar>(
         &self,
         mut point_at: impl FnMut(S) -> OperatingPoint<S>,
@@ -30,8 +30,8 @@ impl Rotor {
             .plus(duration * 0.75, &third))
     }
 
-    /// Number of equal steps, at least 1, with which a stretch of `duration` s is stable; not
-    /// finite where the states' rates are not.
+    /// Number of equal steps, at least 1, into which `duration` s must be divided for a stable
+    /// integration; not finite where the states' rates are not.
     pub fn stable_steps(&self, point: &OperatingPoint, state: &State, duration: f64) -> f64 {
         let fastest = rates::fastest(&self.evaluate(point, state));
         libm::ceil((duration * fastest / MAX_PRODUCT).max(1.0))

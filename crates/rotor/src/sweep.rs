@@ -1,4 +1,4 @@
-//! One blade element swept around the disc: its loads at the blade positions, and their mean.
+//! One blade element moved around the azimuth: its loads at each blade position, and their average.
 
 use super::{
     blade_loads::ElementLoads,
@@ -49,13 +49,13 @@ pub struct Sweep<'a, S = f64> {
     element: &'a Element<'a, S>,
     flow: &'a DiscFlow<S>,
     positions: &'a [BladePosition<S>],
-    /// How many positions `loads` averages: all, or only the first, that of blade 1.
+    /// Number of positions that `loads` averages: all, or only the first, that of blade 1.
     shown: usize,
     /// N/m.
     pub force: Vector3<S>,
     /// About the hub's centre, N.
     pub moment: Vector3<S>,
-    /// Fraction of the revolution in which the element is stalled.
+    /// Fraction of the blade positions at which the element is stalled.
     pub stalled: f64,
     /// One blade's thrust at each position, N/m.
     pub thrust_at: [S; AZIMUTHS],
@@ -101,7 +101,7 @@ impl<'a, S: Scalar> Sweep<'a, S> {
         Ok(())
     }
 
-    /// Takes the same load and axial induced velocity (m/s) at all positions.
+    /// Uses the same load and axial induced velocity (m/s) at all positions.
     pub fn take(&mut self, load: &SectionLoad<S>, induced: S) {
         for (i, position) in self.positions.iter().enumerate() {
             let section = self.flow.at_section(self.element.radius, position);
@@ -160,8 +160,8 @@ impl<'a, S: Scalar> Sweep<'a, S> {
         shown.induced_velocity += induced * share;
     }
 
-    /// The loads of blade 1, or the mean of all positions; `mean_induced` is that of the whole
-    /// annulus, m/s.
+    /// The loads of blade 1, or the average over all positions; `mean_induced` is the mean induced
+    /// velocity around the annulus, m/s.
     pub fn loads(&self, mean_induced: S) -> ElementLoads<S> {
         let flow = self.element.similarity(self.mean.speed);
         ElementLoads {

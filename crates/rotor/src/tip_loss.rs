@@ -14,7 +14,7 @@ use core::f64::consts::FRAC_2_PI;
 /// The tip loss model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum TipLoss {
-    /// The lift goes on to the tip.
+    /// Lift up to the tip.
     None,
     /// Prandtl 1919 (appendix to Betz, "Schraubenpropeller mit geringstem Energieverlust"), with
     /// the local inflow angle as Glauert 1935 (Airplane Propellers, ch. VII, eq. 5.7) writes it.

@@ -1,9 +1,9 @@
-//! The cone of the blades.
+//! The tip path: the cone of the blades.
 
 use super::{disc::Flap, evaluation::Evaluation, loads::DiscLoads, scalar::Scalar};
 use core::f64::consts::PI;
 
-/// Lean of the tip path beyond which one or two blades count as swinging, rad.
+/// Tilt of the tip path, rad, from which on one or two blades define no cone.
 const MAX_LEAN: f64 = 1.0;
 
 /// The cone of the blades: beta = coning - longitudinal cos psi - lateral sin psi, psi from the
@@ -24,8 +24,8 @@ impl<S: Scalar> TipPath<S> {
     /// From three blades on, the mean of the flap angles and twice their means with cos psi and sin
     /// psi (the multiblade coordinates, Johnson 1980, ch. 8.4). One or two flap angles do not
     /// define a cone: for each, beta = a0 - a1 cos psi - b1 sin psi with its first two derivatives
-    /// does, and the mean over the blades is taken. Blades that swing too fast for that are on no
-    /// cone; their flap angle counts as coning.
+    /// does, and the mean over the blades is taken. If a blade moves too fast for that, it defines
+    /// no cone, and its flap angle counts as coning.
     pub(crate) fn new(evaluation: &Evaluation<S>, loads: &DiscLoads<S>) -> Self {
         let hinge = &evaluation.rotor.models().hinge;
         let mut path = Self {

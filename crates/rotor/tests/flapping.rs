@@ -266,7 +266,7 @@ fn cyclic_pitch_in_hover_leans_the_tip_path_by_as_much_90_degrees_later() {
 fn hub_rates_lag_and_cross_couple() {
     let gamma = lock_number();
     let rate = 0.1;
-    let fly = |angular_velocity: Vector3<f64>| {
+    let steady_tip_path = |angular_velocity: Vector3<f64>| {
         let point = OperatingPoint {
             angular_velocity,
             ..hover(0.08)
@@ -278,11 +278,11 @@ fn hub_rates_lag_and_cross_couple() {
         )
     };
     // About y the nose goes down: the tip path stays back.
-    let (a1, b1) = fly(Vector3::new(0.0, rate, 0.0));
+    let (a1, b1) = steady_tip_path(Vector3::new(0.0, rate, 0.0));
     close(a1, 16.0 / gamma, 0.005 * 16.0 / gamma, "lag in pitch");
     close(b1, 1.0, 0.02, "cross of pitch");
     // About x the right side goes down: the tip path stays left.
-    let (a1, b1) = fly(Vector3::new(rate, 0.0, 0.0));
+    let (a1, b1) = steady_tip_path(Vector3::new(rate, 0.0, 0.0));
     close(b1, -16.0 / gamma, 0.005 * 16.0 / gamma, "lag in roll");
     close(a1, 1.0, 0.02, "cross of roll");
 }

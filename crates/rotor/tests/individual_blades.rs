@@ -109,7 +109,7 @@ fn automatic_is_the_disc_in_axial_flow_and_the_blades_elsewhere() {
         let by = |blades, point: &OperatingPoint| {
             let rotor = rotor(inflow, blades);
             let loads = hub_loads(&rotor, point, &state);
-            (loads, rotor.evaluate(point, &state).shows_blades())
+            (loads, rotor.evaluate(point, &state).is_individual())
         };
         let still = hover(0.2);
         assert_eq!(by(Blades::Automatic, &still), by(Blades::Disc, &still));

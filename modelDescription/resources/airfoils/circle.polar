@@ -1,4 +1,4 @@
-# Circular cylinder, for blade roots. Made by airfoil-tables/make_tables.py; do not edit.
+# Circular cylinder, for blade roots. Made by provenance/airfoil-tables/make_tables.py; do not edit.
 # Reynolds number on the diameter, drag coefficient on the frontal area, smooth surface, no lift.
 # Source: Wieselsberger, C. (1921), Physikalische Zeitschrift 22, 321-328, as plotted in
 # Schlichting, Boundary-Layer Theory, and Hoerner, Fluid-Dynamic Drag (1965); above Re 8e5

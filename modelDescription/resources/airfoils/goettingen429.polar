@@ -1,11 +1,11 @@
 # Goettingen 429, computed; no measured table of this section was found. Made by
-# airfoil-tables/make_tables.py; do not edit.
+# provenance/airfoil-tables/make_tables.py; do not edit.
 # Coordinates: GOE 429 of the UIUC airfoil database (33 points, four decimals) as in AeroSandbox
 # 4.2.10: 11.4 % thick, meant to be symmetric; its camber of 0.2 % is kept.
 # Method: NeuralFoil 0.3.3 (P. Sharpe), model size xlarge, Mach 0,
 # free transition with n_crit 1 (free-stream turbulence about 2 % by Mack's relation),
 # computed for positive and negative angles. n_crit is assumed: it is that of naca0015.polar; the
-# reasons are in airfoil-tables/README.md.
+# reasons are in provenance/airfoil-tables/README.md.
 # Re 2,000,000: lift slope over +-4 deg 6.76 per rad, zero lift at -0.04 deg,
 # cd 0.00819 at 0 deg, first peaks of cl 1.64 and -1.62.
 # Re 4,000,000: lift slope over +-4 deg 6.77 per rad, zero lift at -0.04 deg,

@@ -1,4 +1,4 @@
-# NACA 0012, computed. Made by airfoil-tables/make_tables.py; do not edit.
+# NACA 0012, computed. Made by provenance/airfoil-tables/make_tables.py; do not edit.
 # Method: NeuralFoil 0.3.3 (P. Sharpe), model size xlarge, Mach 0,
 # free transition with n_crit 1 (free-stream turbulence about 2 % by Mack's relation),
 # computed for alpha >= 0 and mirrored. n_crit is assumed: it is that of naca0015.polar, chosen there

@@ -1,5 +1,5 @@
 # NACA 0015, measured at Re 242,000, its drag taken to other Reynolds numbers by computed
-# ratios. Made by airfoil-tables/make_tables.py; do not edit.
+# ratios. Made by provenance/airfoil-tables/make_tables.py; do not edit.
 # Measured: naca0015-knight-hefner.polar, which says how. Its block at Re 242,000 is here as it is there.
 # Method: up to 12 deg, at each knot of the measured polar, its cd times the ratio of those that
 # NeuralFoil 0.3.3 (P. Sharpe) computes at the other Reynolds number and at 242,000, with the
@@ -8,7 +8,7 @@
 # with the ratio there; the rest is pressure drag of the stall. NeuralFoil's own confidence is at
 # least 0.85 at the knots. No value is adjusted by hand.
 # Drag at 0 deg: 0.0206 at Re 40,000 to 0.0087 at Re 1,000,000.
-# Lift is the measured one at all Reynolds numbers, also its peak: airfoil-tables/README.md says why.
+# Lift is the measured one at all Reynolds numbers, also its peak: provenance/airfoil-tables/README.md says why.
 # Match angle: 12 deg, the last knot.
 # Post-stall method: Viterna & Corrigan (1982), "Fixed pitch rotor performance of large
 # horizontal axis wind turbines", NASA CP-2230, from the match angle to 90 deg, with

@@ -1,4 +1,4 @@
-# NACA 0015, measured. Made by airfoil-tables/make_tables.py; do not edit.
+# NACA 0015, measured. Made by provenance/airfoil-tables/make_tables.py; do not edit.
 # Source: Knight, M. & Hefner, R. A. (1937), "Static Thrust Analysis of the Lifting
 # Airscrew", NACA TN 626, Tables V and VI: airfoil 6 by 72 inch, Re 242,000,
 # reduced to infinite aspect ratio by the authors.

@@ -1,9 +1,9 @@
-# NACA 0015, computed. Made by airfoil-tables/make_tables.py; do not edit.
+# NACA 0015, computed. Made by provenance/airfoil-tables/make_tables.py; do not edit.
 # Method: NeuralFoil 0.3.3 (P. Sharpe), model size xlarge, Mach 0,
 # free transition with n_crit 1 (free-stream turbulence about 2 % by Mack's relation),
 # computed for alpha >= 0 and mirrored.
 # Chosen by comparison with the measurements of Knight & Hefner (1937) at Re 242,000;
-# the table of candidates is in airfoil-tables/README.md.
+# the table of candidates is in provenance/airfoil-tables/README.md.
 # Distance from naca0015-knight-hefner.polar at Re 242,000, 0 to 12 deg:
 # |dcl| mean 0.0490, max 0.2210;
 # |dcd| mean 0.00799, max 0.05092;

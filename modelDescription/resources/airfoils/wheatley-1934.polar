@@ -1,4 +1,4 @@
-# The blade section of Wheatley's analysis of autogiro rotors. Made by airfoil-tables/make_tables.py; do
+# The blade section of Wheatley's analysis of autogiro rotors. Made by provenance/airfoil-tables/make_tables.py; do
 # not edit.
 # Source: Wheatley, J. B. (1934), NACA Report 487: lift in proportion to the angle of attack with the
 # slope 5.85 per rad, "a good average for most airfoils" (pp. 12 and 13), the same at 180 deg as at 0

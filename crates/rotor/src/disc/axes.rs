@@ -1,9 +1,9 @@
-//! Axes turned into the wind, and azimuths in them.
+//! Wind axes, and azimuths in them.
 
 use crate::scalar::Scalar;
 
-/// The hub frame turned about the shaft so that x points into the flow along the disc: cosine and
-/// sine of the angle.
+/// The hub frame rotated about the shaft so that x points into the edgewise flow: cosine and sine
+/// of the angle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WindAxes<S = f64> {
     /// Cosine of the angle from the hub's x axis to the axes' x axis.

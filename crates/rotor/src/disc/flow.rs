@@ -1,4 +1,4 @@
-//! The motion of the disc through the air, and the flow that a blade's section meets.
+//! The motion of the disc through the air, and the flow at a blade's section.
 
 use super::{Azimuth, BladePosition};
 use crate::scalar::Scalar;
@@ -10,7 +10,7 @@ pub struct DiscFlow<S = f64> {
     pub rotation: S,
     /// Rotor speed against the hub, rad/s.
     pub speed: S,
-    /// Speed along the disc, >= 0, m/s.
+    /// Speed of the edgewise flow, >= 0, m/s.
     pub edgewise: S,
     /// Speed along the shaft, climb positive, m/s.
     pub climb: S,
@@ -26,8 +26,7 @@ pub struct DiscFlow<S = f64> {
     pub hinge: f64,
 }
 
-/// The flow that a blade's section meets, without induced velocity, and the section's pitch and
-/// position.
+/// The flow at a blade's section, without induced velocity, and the section's pitch and position.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SectionFlow<S = f64> {
     /// Change of pitch by cyclic control and flapping, rad.
@@ -74,10 +73,11 @@ impl<S: Scalar> DiscFlow<S> {
     }
 
     /// The flow at the section at `radius` (m, along the blade): thesis eqs. (101) and (102), with
-    /// the angular velocity of the hub and without small angles. It is the velocity of the section,
-    /// V + w x (X e_r + Z e_z) + beta' s n, along e_t and against n. U_R of eq. (103), along the
-    /// blade, has no effect on a section (independence principle) and is left out; so is the effect
-    /// of sideslip on drag and stall.
+    /// the angular velocity of the hub and without small angles. U_T and U_P are the components
+    /// along e_t and n of the section's velocity V + w x (X e_r + Z e_z) + beta' s n, because the
+    /// air comes from where the section moves to. U_R of eq. (103), along the blade, has no effect
+    /// on a section (independence principle) and is left out; so is the effect of sideslip on drag
+    /// and stall.
     pub fn at_section(&self, radius: f64, position: &BladePosition<S>) -> SectionFlow<S> {
         let Azimuth { sin, cos } = position.azimuth;
         let outboard = (radius - self.hinge).max(0.0);

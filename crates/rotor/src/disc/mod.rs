@@ -1,10 +1,9 @@
-//! The disc: axes turned into the wind, the positions of the blades on it, and the flow that their
-//! sections meet.
+//! The disc: wind axes, the positions of the blades, and the flow at their sections.
 //!
-//! Axes. x points from the shaft into the flow along the disc, z up along the shaft, y to the left
-//! of x; the rotor turns counter-clockwise seen from above (a clockwise rotor is mirrored before it
-//! comes here). The azimuth psi counts from downwind in the turning sense, so that with flow along
-//! the disc the blade advances at psi = 90 deg.
+//! Wind axes. x points from the shaft into the edgewise flow, z up along the shaft, y to the left
+//! of x; the rotor turns counter-clockwise seen from above (a clockwise rotor is computed as its
+//! mirror image). The azimuth psi counts from downwind in the direction of rotation, so that in
+//! edgewise flow the blade advances at psi = 90 deg.
 //!
 //! A blade at psi points along e_r = (-cos psi, -sin psi, 0) and moves along e_t = (sin psi, -cos
 //! psi, 0). Outboard of its hinge at radius h it is turned up by the flap angle beta: the section

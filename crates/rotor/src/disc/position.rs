@@ -1,4 +1,4 @@
-//! Where the blades are on the disc, and how they flap there.
+//! Blade positions: azimuth and flapping.
 
 use super::Azimuth;
 use crate::scalar::Scalar;
@@ -29,7 +29,7 @@ impl<S: Scalar> Flap<S> {
     }
 }
 
-/// A blade on the disc: its azimuth and how it flaps there.
+/// A blade position: azimuth and flapping.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct BladePosition<S = f64> {
     /// In wind axes.
@@ -57,8 +57,7 @@ impl<S: Scalar> BladePosition<S> {
     }
 }
 
-/// The positions of the blades, or the stations on the azimuth over which the disc is averaged: 1
-/// to `AZIMUTHS`.
+/// The positions of the blades, or those over which the disc is averaged: 1 to `AZIMUTHS`.
 #[derive(Debug, Clone, Copy)]
 pub struct BladePositions<S = f64> {
     all: [BladePosition<S>; AZIMUTHS],

@@ -11,7 +11,7 @@ use thiserror::Error;
 /// Maximum number of blades.
 pub const MAX_BLADES: u32 = 20;
 
-/// Turning sense of the rotor, seen from above.
+/// Direction of rotation, seen from above.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rotation {
     /// The blade at psi = 90 deg is on the right.
@@ -45,7 +45,7 @@ pub struct Geometry {
     pub radius: f64,
     /// r/R at which the pitch equals the collective, 0 to 1.
     pub pitch_reference_radius: f64,
-    /// Turning sense.
+    /// Direction of rotation, seen from above.
     pub rotation: Rotation,
     /// Chord of the tip for tip losses and for the tip's Reynolds number, >= 0, m.
     pub tip_chord: f64,

@@ -89,14 +89,14 @@ struct Undisturbed<S> {
 
 /// The induced velocity in an annulus, m/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Answer<S = f64> {
+pub struct AnnulusInflow<S = f64> {
     /// At the blades.
     pub induced: Induced<S>,
     /// Mean of the axial component around the annulus.
     pub mean_axial: S,
 }
 
-impl<S: Scalar> Answer<S> {
+impl<S: Scalar> AnnulusInflow<S> {
     /// No induced velocity.
     pub fn zero() -> Self {
         Self {
@@ -188,12 +188,12 @@ pub(super) fn load<S: Scalar>(
     element: &Element<S>,
     sweep: &mut Sweep<S>,
 ) -> Result<S, RootError> {
-    let answer = solve(element, disc.flow, disc.positions, &disc.momentum)?;
-    sweep.load_in(LossIn::Momentum, |_, _| Ok(answer.induced))?;
-    Ok(answer.mean_axial)
+    let inflow = solve(element, disc.flow, disc.positions, &disc.momentum)?;
+    sweep.load_in(LossIn::Momentum, |_, _| Ok(inflow.induced))?;
+    Ok(inflow.mean_axial)
 }
 
-/// What an element's annulus induces in a flow, averaged over the blade positions.
+/// The velocity induced in an element's annulus, averaged over the blade positions.
 ///
 /// Fails only if the airfoil's or the flow's numbers are not finite, or overflow.
 pub fn solve<S: Scalar>(
@@ -201,14 +201,14 @@ pub fn solve<S: Scalar>(
     flow: &DiscFlow<S>,
     positions: &[BladePosition<S>],
     momentum: &Momentum<S>,
-) -> Result<Answer<S>, RootError> {
+) -> Result<AnnulusInflow<S>, RootError> {
     let rotation = flow.rotation * element.radius;
     let undisturbed = Undisturbed {
         speed: rotation.hypot(flow.climb),
         angle: flow.climb.atan2(rotation),
     };
     if undisturbed.speed.value() == 0.0 {
-        return Ok(Answer::zero());
+        return Ok(AnnulusInflow::zero());
     }
     let equation = |phi: S| mean_residual(element, flow, positions, momentum, undisturbed, phi);
     let inflow_angle = if is_one_for_all(flow, positions) {
@@ -228,7 +228,7 @@ pub fn solve<S: Scalar>(
     let far = induced(undisturbed, inflow_angle);
     let induced = momentum.at_the_blades(flow.edgewise, far.axial, far);
     let factor = element.tip_loss_factor(wake_sine(flow, momentum, undisturbed, inflow_angle));
-    Ok(Answer {
+    Ok(AnnulusInflow {
         induced,
         mean_axial: factor * induced.axial,
     })
@@ -384,8 +384,8 @@ pub(super) mod tests {
                 descent: Descent::Measured,
                 ground,
             };
-            let answer = solve(&element, &flow, &[position], &momentum);
-            answer.unwrap().induced.axial
+            let inflow = solve(&element, &flow, &[position], &momentum);
+            inflow.unwrap().induced.axial
         }
         let airfoil = airfoil();
         for (pitch, climb, edgewise) in [
@@ -438,8 +438,8 @@ pub(super) mod tests {
                     descent: Descent::Momentum,
                     ground: Ground::default(),
                 };
-                let answer = solve(&element, &flow, &[anywhere], &momentum).unwrap();
-                let is_windmill = climb + answer.induced.axial < -1e-6;
+                let inflow = solve(&element, &flow, &[anywhere], &momentum).unwrap();
+                let is_windmill = climb + inflow.induced.axial < -1e-6;
                 changes += u32::from(is_windmill != was_windmill);
                 was_windmill = is_windmill;
             }

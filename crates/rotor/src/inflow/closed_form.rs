@@ -31,7 +31,7 @@ use crate::{
     sweep::Sweep,
 };
 
-/// The answer of the closed form for a blade element. SI units.
+/// Loads and induced velocity of a blade element by the closed form. SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClosedForm<S = f64> {
     /// Loads of one blade's section.
@@ -45,7 +45,7 @@ pub struct ClosedForm<S = f64> {
 /// Tolerance of the flow through the disc, as a part of its bracket.
 const TOLERANCE: f64 = 1e-14;
 
-/// Speed of a section, m/s, below which it counts as standing still.
+/// Speed of a section, m/s, below which it counts as stopped.
 const STANDSTILL: f64 = 1e-6;
 
 /// Flow down through the disc, m/s: eq. (94) times the tip speed.
@@ -66,13 +66,6 @@ fn through_flow<S: Scalar>(a: S, climb: S, pitch_flow: S) -> S {
     (half * half + C(2.0) * a * pitch_flow).sqrt() - half
 }
 
-/// The flow and the loads at one blade element in axial flow.
-///
-/// * `rotation`: Omega r, m/s; below 1e-6 m/s there is no load
-/// * `climb`: flow down through the disc, any sign, m/s
-///
-/// # Errors
-///
 /// See `ElementInflow::load`.
 pub(super) fn load<S: Scalar>(
     disc: &Disc<S>,
@@ -80,12 +73,20 @@ pub(super) fn load<S: Scalar>(
     sweep: &mut Sweep<S>,
 ) -> Result<S, RootError> {
     let rotation = disc.flow.rotation * element.radius;
-    let answer = solve(element, rotation, disc.flow.climb)?;
-    sweep.take(&answer.load, answer.induced);
-    Ok(answer.mean_induced)
+    let solution = solve(element, rotation, disc.flow.climb)?;
+    sweep.take(&solution.load, solution.induced);
+    Ok(solution.mean_induced)
 }
 
-/// Where the data of the element or the flow are not finite, so that Prandtl's F has no solution.
+/// The flow and the loads at one blade element in axial flow.
+///
+/// * `rotation`: Omega r, m/s; below 1e-6 m/s there is no load
+/// * `climb`: flow down through the disc, any sign, m/s
+///
+/// # Errors
+///
+/// If the data of the element or the flow are not finite, so that the equation with Prandtl's F has
+/// no solution.
 pub fn solve<S: Scalar>(
     element: &Element<S>,
     rotation: S,

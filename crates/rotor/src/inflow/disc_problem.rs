@@ -1,4 +1,4 @@
-//! The disc at an operating point as the inflow models see it.
+//! The disc at an operating point, as input to the inflow models.
 
 use super::Momentum;
 use crate::{
@@ -13,7 +13,7 @@ pub struct Disc<'a, S = f64> {
     pub blade: Blade<'a, S>,
     /// Motion of the disc through the air, in wind axes.
     pub flow: &'a DiscFlow<S>,
-    /// Blades, or stations on the azimuth over which the disc is averaged.
+    /// Positions of the blades, or those over which the disc is averaged.
     pub positions: &'a [BladePosition<S>],
     /// Whether the positions are those of the blades.
     pub is_individual: bool,

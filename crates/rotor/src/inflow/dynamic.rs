@@ -1,20 +1,20 @@
-//! What models with states share: the stream through the rotor, and the loading of the disc that
-//! drives them.
+//! What the models with states share: the flow through the rotor, and the loading of the disc that
+//! drives the states.
 
 use super::{
     InflowStates,
     descent::{Descent, MassFlow},
-    linear::Wake as SkewedWake,
+    linear::SkewedWake,
 };
 use crate::scalar::Scalar;
 
-/// The flow through a rotor of radius R: along the disc and down through it without induced
-/// velocity, m/s.
+/// The flow through a rotor of radius R, m/s: edgewise, and down through the disc without induced
+/// velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stream<S = f64> {
-    /// Along the disc, >= 0.
+    /// Edgewise flow, >= 0.
     pub edgewise: S,
-    /// Along the shaft, climb positive.
+    /// Flow down through the disc, positive in climb.
     pub climb: S,
     /// R, m.
     pub radius: f64,

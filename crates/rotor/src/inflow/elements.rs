@@ -23,7 +23,7 @@ impl ElementInflow {
         }
     }
 
-    /// Computes the loads of an element, which `sweep` takes around the disc; answers the mean
+    /// Computes the loads of an element, which `sweep` moves around the azimuth. Returns the mean
     /// induced velocity around its annulus, m/s. Fails only if numbers are not finite or overflow.
     pub(crate) fn load<S: Scalar>(
         self,

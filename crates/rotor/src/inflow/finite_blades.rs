@@ -1,10 +1,10 @@
 //! Momentum theory for each blade by itself: Dahl 2015 after Knight & Hefner 1937 (NACA TN 626);
 //! thesis section 3.3.1.
 //!
-//! A blade takes the time T_rev = 2 pi/(N Omega) to where the next one was. In it, its element of
-//! width l meets the air of an area l U_T T_rev, which passes the disc at V + v and takes up twice
-//! v. So the lift L of the element is L = 2 rho l U_T T_rev (V + v) v. The thesis' formula is its
-//! root
+//! A blade takes the time T_rev = 2 pi/(N Omega) to where the next one was. In this time its
+//! element of width l sweeps an area l U_T T_rev, through which air passes at V + v, and gains
+//! twice v. So the lift L of the element is L = 2 rho l U_T T_rev (V + v) v. The thesis' formula is
+//! its root
 //!
 //! ```text
 //! v = (-l rho T_rev U_T V + sqrt(2 l rho T_rev U_T L + (l rho T_rev U_T V)^2))/(2 l rho T_rev U_T)
@@ -25,7 +25,7 @@
 //! ARC R&M 1111), as in the other models, and in descent the mass flow of `descent`; without the
 //! resultant the inflow would stay that of hover at any speed. A stopped rotor induces nothing.
 
-use super::{Disc, Momentum, annulus::Answer, uniform};
+use super::{Disc, Momentum, annulus::AnnulusInflow, uniform};
 use crate::{
     disc::{DiscFlow, SectionFlow},
     element::{Element, LossIn},
@@ -45,26 +45,25 @@ pub(super) fn load<S: Scalar>(
     let mean = Cell::new(S::zero());
     sweep.load_in(LossIn::Momentum, |_, position| {
         let section = disc.flow.at_section(element.radius, position);
-        let answer = solve(element, &section, disc.flow, &disc.momentum)?;
-        mean.set(mean.get() + answer.mean_axial / disc.positions.len() as f64);
-        Ok(answer.induced)
+        let inflow = solve(element, &section, disc.flow, &disc.momentum)?;
+        mean.set(mean.get() + inflow.mean_axial / disc.positions.len() as f64);
+        Ok(inflow.induced)
     })?;
     Ok(mean.get())
 }
 
 /// The velocity that a blade's element induces.
 ///
-/// Of `flow` the rotor speed and the edgewise speed count here. Fails only if numbers are not
-/// finite.
+/// `flow` gives the rotor speed and the edgewise speed. Fails only if numbers are not finite.
 pub fn solve<S: Scalar>(
     element: &Element<S>,
     section: &SectionFlow<S>,
     flow: &DiscFlow<S>,
     momentum: &Momentum<S>,
-) -> Result<Answer<S>, RootError> {
+) -> Result<AnnulusInflow<S>, RootError> {
     let scale = (section.in_plane.hypot(section.through) + flow.edgewise).value();
     if scale == 0.0 {
-        return Ok(Answer::zero());
+        return Ok(AnnulusInflow::zero());
     }
     let pitch = element.pitch + section.pitch;
     let forward = if section.in_plane.value() < 0.0 {
@@ -107,7 +106,7 @@ pub fn solve<S: Scalar>(
     } else {
         factor(v, through, speed)
     };
-    Ok(Answer {
+    Ok(AnnulusInflow {
         induced: Induced::axial(axial),
         mean_axial: share * axial,
     })

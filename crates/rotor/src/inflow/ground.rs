@@ -1,5 +1,5 @@
-//! Ground effect: the ground holds back the wake, so the blades meet less induced velocity than
-//! the same thrust induces far from the ground.
+//! Ground effect: the ground holds back the wake, so that the induced velocity at the blades is
+//! less than the same thrust induces far from the ground.
 //!
 //! Published is the gain of thrust at the same power, or the loss of power at the same thrust. In
 //! hover P = T v k and T = 2 rho A v^2, where k is the part of the induced velocity that is left.
@@ -55,7 +55,7 @@ impl<S: Scalar> Ground<S> {
 
     /// k, 0 to 1: the part of the induced velocity that is left.
     ///
-    /// * `edgewise`: flow along the disc, >= 0, m/s
+    /// * `edgewise`: edgewise flow, >= 0, m/s
     /// * `induced`: mean induced velocity far from the ground, any sign, m/s
     pub fn factor(&self, edgewise: S, induced: S) -> S {
         if self.is_far() {

@@ -28,8 +28,9 @@ pub enum Skew {
     GlauertHighSpeed,
 }
 
-/// Resultant flow at the disc over tip speed above which Drees' terms in mu are held. He fitted
-/// them to the advance ratios of helicopters; a slow rotor in wind can have any advance ratio.
+/// Resultant flow at the disc over tip speed above which Drees' terms in mu stay constant. He
+/// fitted them to the advance ratios of helicopters; a slow rotor in wind can have any advance
+/// ratio.
 const MAX_FLOW: f64 = 0.5;
 
 /// The distribution's coefficients.
@@ -42,8 +43,8 @@ pub struct Coefficients<S = f64> {
 }
 
 /// The flow that skews the wake, in any unit of speed.
-pub struct Wake<S> {
-    /// Along the disc, >= 0.
+pub struct SkewedWake<S> {
+    /// Edgewise, >= 0.
     pub along: S,
     /// Away from the disc, >= 0.
     pub down: S,
@@ -51,9 +52,9 @@ pub struct Wake<S> {
     pub flow: S,
 }
 
-impl<S: Scalar> Wake<S> {
-    /// From the flow along the disc (>= 0) and through it (any sign), m/s. In still air it is the
-    /// direction of the flow that is about to begin, or none if the air stays still.
+impl<S: Scalar> SkewedWake<S> {
+    /// From the edgewise flow (>= 0) and the flow through the disc (any sign), m/s. In still air it
+    /// is the direction of the flow that is about to begin, or none if the air stays still.
     pub fn new(edgewise: S, through: S) -> Option<Self> {
         let flow = edgewise.hypot(through);
         if flow.value() != 0.0 {
@@ -91,11 +92,11 @@ impl Skew {
     /// need only sin chi = edgewise/h and tan(chi/2) = edgewise/(h + |through|). These divide by
     /// zero in still air alone, where all coefficients are 0.
     ///
-    /// * `edgewise`: flow along the disc, >= 0, m/s
+    /// * `edgewise`: edgewise flow, >= 0, m/s
     /// * `through`: flow through the disc with the induced velocity, any sign, m/s
     /// * `tip_speed`: >= 0, m/s
     pub fn coefficients<S: Scalar>(self, edgewise: S, through: S, tip_speed: S) -> Coefficients<S> {
-        let Some(Wake { along, down, flow }) = Wake::new(edgewise, through) else {
+        let Some(SkewedWake { along, down, flow }) = SkewedWake::new(edgewise, through) else {
             let (kx, ky) = (S::zero(), S::zero());
             return Coefficients { kx, ky };
         };

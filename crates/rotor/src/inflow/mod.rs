@@ -1,7 +1,7 @@
 //! Inflow: the velocity that the rotor induces at its own blades.
 //!
-//! `Inflow` is the choice of model with its data. Each question about a model is one method with
-//! one `match`, so that the compiler lists what a new model has to answer:
+//! `Inflow` is the choice of model with its data. Each property of a model is one method with
+//! one `match`, so that the compiler lists what a new model has to define:
 //!
 //! * a model in which each element finds its induced velocity is a file and an arm of
 //!   `ElementInflow::load`;
@@ -63,7 +63,7 @@ pub enum Inflow {
 
 /// What is induced at the blades at an operating point, in wind axes.
 pub(crate) enum Induction<'a, S> {
-    /// Each element finds it by itself.
+    /// Found element by element.
     Elements(ElementInflow),
     /// A linear distribution over the disc.
     Field(Field<S>),
@@ -77,8 +77,8 @@ pub(crate) enum Induction<'a, S> {
 }
 
 impl Inflow {
-    /// Peters & He's wake up to the power `order` (1 to 6) of the radius, for a rotor of so many
-    /// blades whose elements lie at these radii r/R.
+    /// Peters & He's wake up to the power `order` (1 to 6) of the radius, for a rotor with
+    /// `blades` blades whose elements lie at `radius_ratios`, r/R.
     pub fn peters_he(order: usize, blades: usize, radius_ratios: &[f64]) -> Self {
         Self::PetersHe(Box::new(Wake::of_blades(order, blades, radius_ratios)))
     }
@@ -92,8 +92,8 @@ impl Inflow {
         }
     }
 
-    /// Whether the model holds only for axial flow past rigid blades, and answers all else as if it
-    /// were that.
+    /// Whether the model holds only for axial flow past rigid blades. It treats any other flight as
+    /// axial flow past rigid blades.
     pub fn is_axial_only(&self) -> bool {
         match self {
             Self::Elements(model) => model.is_axial_only(),
@@ -228,7 +228,7 @@ impl Inflow {
 }
 
 impl<S: Scalar> Induction<'_, S> {
-    /// Computes the loads of element `i`, which `sweep` takes around the disc; answers the mean
+    /// Computes the loads of element `i`, which `sweep` moves around the azimuth. Returns the mean
     /// induced velocity around its annulus, m/s.
     pub(crate) fn load(
         &self,

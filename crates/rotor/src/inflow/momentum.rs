@@ -1,4 +1,4 @@
-//! Momentum theory as the inflow models use it: with what descent and the ground do to it.
+//! Momentum theory as the inflow models use it, with the effects of descent and of the ground.
 
 use super::{Descent, Ground, InflowStates};
 use crate::{
@@ -40,16 +40,16 @@ impl<S: Scalar> Scale<S> for InflowStates<S> {
 }
 
 impl<S: Scalar> Momentum<S> {
-    /// Ground effect: what is left at the blades of `far`, the velocity that would be induced far
-    /// from the ground. `edgewise` (>= 0) is the flow along the disc and `mean` the mean of `far`,
-    /// m/s.
+    /// The induced velocity at the blades with ground effect. `far` is the velocity that would be
+    /// induced far from the ground and `mean` its mean over the disc, m/s; `edgewise` is the
+    /// edgewise flow, >= 0, m/s.
     pub(crate) fn at_the_blades<V: Scale<S>>(&self, edgewise: S, mean: S, far: V) -> V {
         far.scale(self.ground.factor(edgewise, mean))
     }
 
-    /// Whether the rotor takes up momentum as momentum theory says: always but where another law of
-    /// descent holds and the rotor descends against what it induces. Of `induced` (or the lift that
-    /// induces it) only the sign counts.
+    /// Whether the mass flow is that of momentum theory: in climb and hover with every model, in
+    /// descent only with `Descent::Momentum`. Only the sign of `induced` matters, so that the lift
+    /// that induces it may be given instead.
     pub(crate) fn is_plain(&self, climb: S, induced: S) -> bool {
         match self.descent {
             Descent::Momentum => true,
@@ -57,9 +57,9 @@ impl<S: Scalar> Momentum<S> {
         }
     }
 
-    /// Sine of the angle at which the wake leaves the disc, for Prandtl's F, where `is_plain` says
-    /// no: there the air that takes up momentum is V', not |V_c + v|, which goes through 0. F would
-    /// go through 1 in a spike, and the momentum balance would fold.
+    /// Sine of the angle at which the wake leaves the disc, for Prandtl's F, where `is_plain` is
+    /// false. There the mass flow is V' and not |V_c + v|, which passes through 0: with it F would
+    /// rise to 1 in a narrow peak, and the momentum balance would have several roots.
     ///
     /// `climb` and `induced` (axial): m/s; `speed`: of the flow at the blade, m/s.
     pub(crate) fn wake_sine_in_descent(&self, climb: S, induced: S, speed: S) -> S {

@@ -96,10 +96,11 @@ pub struct Wake {
 
 /// Bounds of the eigenvalues of the equations, for one order.
 struct Bounds {
-    /// Largest 2-norm of K^-1/2 L^-1 K^-1/2 at all X, L scaled as in the head.
+    /// Largest 2-norm of K^-1/2 L^-1 K^-1/2 at all X, L scaled as described at the top of this
+    /// file.
     wake: f64,
     /// Largest eigenvalue of K^-1 times the integral of phi phi x dx over 4, the blades' speed
-    /// being x times that of the tip, and the same without x for the flow along the disc.
+    /// being x times that of the tip, and the same without x for the edgewise flow.
     turning: f64,
     edgewise: f64,
     /// Traces of the same two.
@@ -154,9 +155,9 @@ impl Wake {
         Self::with_harmonics(order, blades.saturating_sub(1), radius_ratios)
     }
 
-    fn with_harmonics(order: usize, most: usize, radius_ratios: &[f64]) -> Self {
+    fn with_harmonics(order: usize, harmonics: usize, radius_ratios: &[f64]) -> Self {
         let order = order.clamp(1, MAX_ORDER);
-        let harmonics = 0..=order.min(MAX_HARMONICS).min(most);
+        let harmonics = 0..=order.min(MAX_HARMONICS).min(harmonics);
         let indices: Vec<_> = harmonics
             .flat_map(|m| (m + 1..=order + 1).step_by(2).map(move |j| (m, j)))
             .collect();
@@ -207,13 +208,13 @@ impl Wake {
         2 * self.indices.len() - self.axial
     }
 
-    /// Never: the smallest wake has one state.
+    /// Always false: the smallest wake has one state.
     pub fn is_empty(&self) -> bool {
         false
     }
 
     /// Harmonics of the azimuth with the cosine `cos` and the sine `sin`. With both zero, which
-    /// stands for an azimuth without a direction, only m = 0 is left.
+    /// stands for all azimuths of an axially symmetric disc, only m = 0 is left.
     pub fn harmonics<S: Scalar>(cos: S, sin: S) -> Harmonics<S> {
         let mut all = Harmonics {
             cos: [S::one(); MAX_HARMONICS + 1],

@@ -1,7 +1,7 @@
 //! The states from which a rotor starts.
 
 mod periodic;
-mod still_inflow;
+mod steady_inflow;
 mod unknowns;
 
 use super::{
@@ -21,18 +21,19 @@ use unknowns::Unknowns;
 /// How a rotor starts.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Start {
-    /// In the state that repeats from blade to blade, or in the disc does not change.
+    /// In a periodic state, in which each blade repeats the motion of the one before it, or, with
+    /// loads averaged over one revolution, in a steady state.
     Steady,
     /// Without induced velocity, the blades at the precone angle.
     Rest,
 }
 
-/// Tolerance of the states in their own scales.
+/// Tolerance of the states, each divided by its scale in `Unknowns`.
 const TOLERANCE: f64 = 1e-10;
 
 impl Rotor {
-    /// The state at the start, with blade 1 at the tail. `azimuth_step` (rad) is the largest step.
-    /// Fails if no steady state is found.
+    /// The state at the start, with blade 1 at the tail. `azimuth_step` (rad) is the maximum step.
+    /// Fails if no steady or periodic state is found.
     pub fn start(
         &self,
         point: &OperatingPoint,
@@ -49,9 +50,9 @@ impl Rotor {
             return Ok(state);
         }
         if self.models().inflow.state_count() > 0 {
-            state.inflow = still_inflow::find(self, point, workspace)?;
+            state.inflow = steady_inflow::find(self, point, workspace)?;
         }
-        if !self.evaluate(point, &state).shows_blades() {
+        if !self.evaluate(point, &state).is_individual() {
             return Ok(state);
         }
         let mut state = periodic::find(self, point, state, azimuth_step, workspace)?;
@@ -59,19 +60,20 @@ impl Rotor {
         Ok(state)
     }
 
-    /// Hub loads in steady flight. Where blades show at their azimuths, they are those at the
-    /// azimuth of the start. Allocates a workspace; fails as `start` and `respond` do.
+    /// Hub loads in steady flight. Where they vary with azimuth, they are those with blade 1 at the
+    /// tail. Allocates a workspace; fails as `start` and `respond` do.
     pub fn steady(&self, point: &OperatingPoint) -> Result<HubLoads, SolveError> {
         let mut workspace = Workspace::new(self);
         let state = self.start(point, Start::Steady, PI / 60.0, &mut workspace)?;
         Ok(self.respond(point, &state, &mut workspace)?.hub)
     }
 
-    /// The state at the start with its derivatives along those of `dual`: `found` is what `start`
-    /// has found at `plain`, which has the values of `dual`.
+    /// The state at the start with its derivatives in the direction of those of `dual`. `plain` is
+    /// the operating point with the values of `dual`, and `found` the state that `start` returned
+    /// for it. Fails as `start` does.
     ///
-    /// The conditions of the start, inflow that does not change or a state that repeats, are
-    /// differentiated where they hold.
+    /// The condition of the start, steady inflow or a periodic state, is differentiated at its
+    /// solution.
     pub fn start_along(
         &self,
         (plain, dual): (&OperatingPoint, &OperatingPoint<Dual64>),
@@ -90,7 +92,7 @@ impl Rotor {
         if start == Start::Rest || !self.has_memory(plain) {
             return Ok(state);
         }
-        let steps = if self.evaluate(dual, &state).shows_blades() {
+        let steps = if self.evaluate(dual, &state).is_individual() {
             periodic::steps(self, plain, found, azimuth_step)
         } else {
             None
@@ -103,10 +105,10 @@ impl Rotor {
             let state = unknowns.state(x);
             match steps {
                 Some(steps) => {
-                    let passed = periodic::passed(self, dual, &state, steps, workspace)?;
+                    let passed = periodic::after_passage(self, dual, &state, steps, workspace)?;
                     Ok(unknowns.of(&passed) - x)
                 }
-                None => Ok(unknowns.of(&still_inflow::rates(self, dual, &state, workspace)?)),
+                None => Ok(unknowns.of(&steady_inflow::rates(self, dual, &state, workspace)?)),
             }
         })?;
         let moves = unknowns.state(&moves.ok_or(SolveError::NoSteadyState)?);
@@ -120,8 +122,8 @@ impl Rotor {
     }
 }
 
-/// The operating point with the speed imposed: a torque that does not balance the rotor's leaves no
-/// speed steady, so that the start is steady at the speed that the rotor has there.
+/// The operating point with the speed imposed. Under a torque that differs from the rotor's no
+/// speed is steady, so that the other states are made steady at the speed of the start.
 fn at_imposed_speed(point: &OperatingPoint) -> OperatingPoint {
     OperatingPoint {
         drive: Drive::Speed,

@@ -1,6 +1,6 @@
-//! The state that repeats from blade to blade: after the time in which each blade comes to where
-//! the next one was, its flapping is that of the next one and the inflow is the same. It is found
-//! by periodic shooting, as for limit cycles (Seydel 2010, "Practical Bifurcation and Stability
+//! The periodic state: after the time in which each blade comes to where the next one was, its
+//! flapping is what that of the next one was, and the inflow is the same. It is found by periodic
+//! shooting, as for limit cycles (Seydel 2010, "Practical Bifurcation and Stability
 //! Analysis", ch. 7).
 
 use super::{TOLERANCE, unknowns::Unknowns};
@@ -11,20 +11,20 @@ use crate::{
 use core::f64::consts::PI;
 use nalgebra::DVector;
 
-/// Step, rad, that is short enough for the slopes with which Newton's method finds the periodic
-/// state: the third order leaves them an error of some 1e-4. What it finds belongs to the steps in
-/// flight.
+/// Step, rad, that is short enough for the slopes in Newton's method: integration of order 3 leaves
+/// them an error of some 1e-4. The state that is found is periodic with the steps of the
+/// simulation.
 const STEP_FOR_SLOPES: f64 = PI / 12.0;
 
-/// Maximum number of steps from blade to blade; blades of rotors that turn more slowly start from
-/// rest.
+/// Maximum number of steps in a blade passage. Rotors that need more, because they turn slowly, do
+/// not start from a periodic state.
 const MAX_STEPS: f64 = 3000.0;
 
-/// Maximum number of steps of the search in all. Searches that end well take a tenth.
+/// Maximum number of steps of the search in all. Successful searches take a tenth.
 const MAX_STEPS_IN_ALL: f64 = 20_000.0;
 
-/// The state that repeats, searched from `guess`; `guess` itself for a rotor that does not turn, or
-/// hardly.
+/// The periodic state, searched from `guess`; `guess` itself for a rotor that is stopped or turns
+/// too slowly. Fails if the search finds none.
 pub(super) fn find(
     rotor: &Rotor,
     point: &OperatingPoint,
@@ -48,7 +48,7 @@ pub(super) fn find(
         if left < 0.0 {
             return Err(SolveError::NoSteadyState);
         }
-        let passed = passed(rotor, point, &unknowns.state(x), steps, workspace)?;
+        let passed = after_passage(rotor, point, &unknowns.state(x), steps, workspace)?;
         Ok(unknowns.of(&passed) - x)
     };
     let found = newton::solve(unknowns.of(&guess), TOLERANCE, residual)?;
@@ -56,8 +56,8 @@ pub(super) fn find(
     Ok(unknowns.state(&found))
 }
 
-/// Number of steps from blade to blade, each at most `longest` (rad); none for a rotor that does
-/// not turn, or hardly.
+/// Number of steps in a blade passage, each at most `longest` (rad); none for a rotor that is
+/// stopped or turns too slowly.
 pub(super) fn steps(
     rotor: &Rotor,
     point: &OperatingPoint,
@@ -73,9 +73,9 @@ pub(super) fn steps(
     (steps <= MAX_STEPS).then_some(steps)
 }
 
-/// The state after the time from blade to blade, with each blade's flapping in the place of the one
-/// before it.
-pub(super) fn passed<S: Scalar>(
+/// The state after a blade passage, with the blades renumbered so that it equals `state` if that is
+/// periodic.
+pub(super) fn after_passage<S: Scalar>(
     rotor: &Rotor,
     point: &OperatingPoint<S>,
     state: &State<S>,
@@ -93,8 +93,8 @@ pub(super) fn passed<S: Scalar>(
     Ok(state)
 }
 
-/// Time in which a blade comes to where the next one was, s; negative for a rotor that turns
-/// backwards.
+/// Blade passage: the time in which a blade comes to where the next one was, s; negative for a
+/// rotor that turns backwards.
 fn passage<S: Scalar>(rotor: &Rotor, point: &OperatingPoint<S>) -> S {
     S::constant(2.0 * PI) / (point.speed * f64::from(rotor.geometry().blades))
 }

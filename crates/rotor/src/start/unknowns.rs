@@ -5,8 +5,8 @@ use crate::{
 };
 use nalgebra::DVector;
 
-/// Which states are unknown, and their scales: velocities by a speed, flap rates by the rotor's
-/// speed.
+/// Which states are unknown, and their scales: velocities are divided by a speed, flap rates by the
+/// rotor's speed.
 pub(super) struct Unknowns {
     inflow: usize,
     flapping: usize,
@@ -17,7 +17,7 @@ pub(super) struct Unknowns {
 }
 
 impl Unknowns {
-    /// The inflow states, by a speed, m/s.
+    /// The inflow states, divided by a speed, m/s.
     pub(super) fn of_inflow(rotor: &Rotor, speed: f64) -> Self {
         Self {
             inflow: rotor.models().inflow.state_count(),

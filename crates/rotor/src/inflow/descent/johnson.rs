@@ -1,7 +1,7 @@
 //! Johnson's model of the mean inflow in the vortex ring state: Johnson 2005, "Model for Vortex
 //! Ring State Influence on Rotorcraft Flight Dynamics", NASA/TP-2005-213477, pp. 14, 23 and 24.
 //!
-//! In units of v_h, with V_z the climb and V_x the flow along the disc. The baseline is momentum
+//! In units of v_h, with V_z the climb and V_x the edgewise flow. The baseline is momentum
 //! theory with its two branches joined by a cubic between the points A and B,
 //! v = b V_z + c V_z^2 + d V_z^3, from v and slope at A and v at B. To the baseline is added a
 //! piecewise cubic, which is 0 at D and E and brings V_z + v to given values at N and X. These are
@@ -267,7 +267,7 @@ fn hermite<S: Scalar>(a: &Knot<S>, b: &Knot<S>, at: S) -> S {
 
 /// The cubic b z + c z^2 + d z^3 through a knot with its slope, and with a value at `other`.
 fn through_origin<S: Scalar>(knot: &Knot<S>, other: S, value: S, at: S) -> S {
-    // p(z)/z is a parabola, known at two places and with its slope at the first.
+    // p(z)/z is a parabola, known at two points and with its slope at the first.
     let (first, second) = (knot.value / knot.at, value / other);
     let rise = (knot.slope - first) / knot.at;
     let width = other - knot.at;

@@ -7,8 +7,8 @@
 //! published laws and with fits to halves of the runs. Between V_d/v_h = 2.46 and 3.6 nothing was
 //! measured. V_c/v_h = k/sqrt(g) grows with k everywhere.
 //!
-//! Flow along the disc. Nothing is fitted to it: in Glauert's resultant v g(k) takes the place of
-//! V_c + v, which counts ever less the faster the flow.
+//! Edgewise flow. No measurements in it are fitted: v g(k) replaces V_c + v in Glauert's resultant,
+//! in which either matters less the faster the edgewise flow.
 
 use crate::scalar::{C, Scalar};
 
@@ -28,12 +28,12 @@ const KNOTS: [(f64, f64, f64); 10] = [
 
 /// g and its slope dg/dk at k = V_c/v <= 0.
 pub fn gain<S: Scalar>(ratio: S) -> (S, S) {
-    let place = ratio.value();
-    if place.is_nan() || place <= KNOTS[0].0 {
+    let k = ratio.value();
+    if k.is_nan() || k <= KNOTS[0].0 {
         return (-ratio - 1.0, S::constant(-1.0));
     }
     let upper = KNOTS
-        .partition_point(|knot| knot.0 <= place)
+        .partition_point(|knot| knot.0 <= k)
         .min(KNOTS.len() - 1);
     let ((a, value_a, slope_a), (b, value_b, slope_b)) = (KNOTS[upper - 1], KNOTS[upper]);
     let width = b - a;

@@ -1,20 +1,20 @@
 //! The air that passes through the disc and takes up momentum, in climb, hover, forward flight and
 //! descent.
 //!
-//! Momentum theory says that a rotor which induces v at the disc pulls with T = 2 rho A v V', where
-//! V' is the speed of the air that passes through the disc: Glauert's resultant
-//! sqrt(V_x^2 + (V_c + v)^2) (1926, ARC R&M 1111). In descent that air meets the wake on its way
-//! down, and measured rotors depart from the theory. Measured is the ratio v/v_h against V_c/v_h,
-//! v_h^2 = T/(2 rho A). With k = V_c/v the same is
+//! Momentum theory says that a rotor which induces v at the disc has the thrust T = 2 rho A v V',
+//! where V' is the speed of the air that passes through the disc: Glauert's resultant sqrt(V_x^2 +
+//! (V_c + v)^2) (1926, ARC R&M 1111). In descent that air meets the wake on its way down, and
+//! measured rotors depart from the theory. Measured is the ratio v/v_h against V_c/v_h, v_h^2 =
+//! T/(2 rho A). With k = V_c/v the same is
 //!
 //! ```text
 //! V' = v g(k),   g(V_c/v) = (v_h/v)^2,
 //! ```
 //!
 //! and g = |1 + k| in momentum theory. In this form every inflow model can use the measurements,
-//! annuli and inflow states included: V' is a function of what the model knows, without a state of
-//! its own that could chatter. As long as V_c/v_h = k/sqrt(g) grows with k, the thrust grows with v
-//! at any V_c, and the inflow is unique.
+//! annuli and inflow states included: V' is a function of V_x, V_c and v alone, without a discrete
+//! flow state that could switch to and fro. As long as V_c/v_h = k/sqrt(g) grows with k, the thrust
+//! grows with v at any V_c, and the inflow is unique.
 
 mod johnson;
 mod measured;
@@ -46,9 +46,10 @@ pub struct MassFlow<S = f64> {
 impl Descent {
     /// V', m/s.
     ///
-    /// A rotor that pulls down is a rotor upside down: only the sign of V_c against v counts.
+    /// A rotor with thrust downwards is a rotor upside down: only the sign of V_c relative to v
+    /// matters.
     ///
-    /// * `edgewise`: flow along the disc V_x, >= 0, m/s
+    /// * `edgewise`: edgewise flow V_x, >= 0, m/s
     /// * `climb`: flow down through the disc V_c, any sign, m/s
     /// * `induced`: v, positive down, m/s
     pub fn speed<S: Scalar>(self, edgewise: S, climb: S, induced: S) -> S {
@@ -93,8 +94,8 @@ impl Descent {
             }
             Self::Measured | Self::Johnson => momentum(),
         };
-        // In descent momentum theory can give a negative slope, which has no meaning: the wake
-        // carries nothing away at the least.
+        // In descent momentum theory can give a negative slope. It has no physical meaning: at the
+        // least the wake carries no momentum away.
         MassFlow {
             speed,
             slope: slope.at_least(0.0),
@@ -122,7 +123,7 @@ impl FlowState {
     /// axial flow), and below that the windmill brake. In fast edgewise flow, where there is no
     /// boundary, the direction of the air through the disc decides.
     ///
-    /// * `edgewise`: flow along the disc, >= 0, m/s
+    /// * `edgewise`: edgewise flow, >= 0, m/s
     /// * `climb`: flow down through the disc, m/s
     /// * `induced`: mean induced velocity, positive down, m/s
     /// * `thrust`: T/(rho A), m2/s2

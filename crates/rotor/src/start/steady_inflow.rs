@@ -1,4 +1,4 @@
-//! Inflow states that do not change, for rigid blades averaged over one revolution.
+//! Steady inflow states, for rigid blades averaged over one revolution.
 
 use super::{TOLERANCE, unknowns::Unknowns};
 use crate::{
@@ -15,7 +15,7 @@ use crate::{
 };
 use nalgebra::DVector;
 
-/// The inflow states that do not change, in the axes of the hub.
+/// The steady inflow states, in the axes of the hub. Fails if the search finds none.
 pub(super) fn find(
     rotor: &Rotor,
     point: &OperatingPoint,
@@ -30,7 +30,8 @@ pub(super) fn find(
     if speed == 0.0 {
         return Ok(at_rest.inflow);
     }
-    // Slopes that vanish with the axial symmetry have the static model's values to start from.
+    // The search starts from the static inflow model: the slopes of the field, which are 0 in axial
+    // symmetry, then have their order of magnitude in edgewise flow.
     workspace.prepare(rotor);
     let disc = evaluation.disc(&workspace.lifting_shares);
     let field = disc.momentum_field(Skew::PittPeters)?;
@@ -50,7 +51,7 @@ pub(super) fn find(
     Ok(unknowns.state(&found).inflow)
 }
 
-/// Rates of the states of the disc.
+/// Rates of the states, averaged over one revolution.
 pub(super) fn rates<S: Scalar>(
     rotor: &Rotor,
     point: &OperatingPoint<S>,
