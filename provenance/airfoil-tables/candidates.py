@@ -1,6 +1,6 @@
 """Compare candidate methods for the NACA 0015 with the measurements at Re 242,000.
 
-Prints a Markdown table and draws comparison.png.
+Prints a Markdown table and draws candidates.png.
 """
 
 import argparse
@@ -34,9 +34,7 @@ DRAWN = {
 def xfoil_polar(n_crit, x_trip):
     """alpha (deg), cl and cd by XFOIL with 200 panels, at the points of ALPHA that converge."""
     if shutil.which("xfoil") is None:
-        raise tables.TableError(
-            "The comparison needs the program xfoil, and it is not on the PATH."
-        )
+        raise tables.TableError("The candidates need the program xfoil, and it is not on the PATH.")
     commands = (
         f"PLOP\nG F\n\nNACA 0015\nPPAR\nN 200\n\n\nOPER\nVISC {tables.MEASURED_REYNOLDS}\n"
         f"VPAR\nN {n_crit}\nXTR {x_trip} {x_trip}\n\nITER 200\nPACC\npolar.txt\n\n"
@@ -134,7 +132,7 @@ def draw(polars):
     figure.suptitle(
         "NACA 0015 at Re 242,000 (measured: Knight & Hefner 1937, folded by symmetry)", fontsize=11
     )
-    figure.savefig(tables.HERE / "comparison.png", dpi=130)
+    figure.savefig(tables.HERE / "candidates.png", dpi=130)
 
 
 def main():
