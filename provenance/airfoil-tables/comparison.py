@@ -1,140 +1,156 @@
-"""Compare candidate methods for the NACA 0015 with the measurements at Re 242,000.
+"""Compare naca0012.polar and naca0015.polar with assessed measurements.
 
 Prints a Markdown table and draws comparison.png.
 """
 
 import argparse
-import shutil
-import subprocess
 import sys
-import tempfile
-from pathlib import Path
 
 import matplotlib
 import numpy as np
 
+import make_slopes
 import make_tables as tables
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt  # noqa: E402
 
-# method, n_crit, trip position in chords (1: free transition)
-CANDIDATES = [
-    ("NeuralFoil", 9, 1.0), ("NeuralFoil", 4, 1.0), ("NeuralFoil", 2, 1.0), ("NeuralFoil", 1, 1.0),
-    ("NeuralFoil", 9, 0.05), ("NeuralFoil", 4, 0.05),
-    ("XFOIL", 9, 1.0), ("XFOIL", 4, 1.0), ("XFOIL", 1, 1.0), ("XFOIL", 9, 0.05), ("XFOIL", 4, 0.05),
-]  # fmt: skip
-ALPHA = np.arange(0, 16.01, 0.5)
-DRAWN = {
-    ("NeuralFoil", 9, 1.0): ":", ("NeuralFoil", 4, 1.0): "-.", ("NeuralFoil", 1, 1.0): "-",
-    ("NeuralFoil", 9, 0.05): "--",
-}  # fmt: skip
+SECTIONS = {"naca0012": "NACA 0012", "naca0015": "NACA 0015"}
+QUANTITIES = {
+    "slope_per_rad": "lift slope, 1/rad",
+    "cd0": "drag coefficient at zero lift",
+    "cl_max": "largest lift coefficient",
+    "stall_deg": "stall angle, deg",
+}
+# source: name in the figure, marker; filled: the table is made from it
+SOURCES = {
+    "knight-hefner": ("Knight & Hefner 1937", "D", True),
+    "ladson": ("Ladson 1988, fixed transition", "o", True),
+    "gregory-oreilly": ("Gregory & O'Reilly 1970, fixed", "s", True),
+    "abbott-doenhoff": ("Abbott & von Doenhoff 1959, free", "^", False),
+    "jacobs-sherman": ("Jacobs & Sherman 1937, turbulent tunnel", "v", True),
+    "sheldahl-klimas-moment": ("Sheldahl & Klimas 1981, moment break", "P", False),
+    "sheldahl-klimas": ("Sheldahl & Klimas 1981, partly computed (used: 700,000)", "x", False),
+}
 
 
-def xfoil_polar(n_crit, x_trip):
-    """alpha (deg), cl and cd by XFOIL with 200 panels, at the points of ALPHA that converge."""
-    if shutil.which("xfoil") is None:
-        raise tables.TableError(
-            "The comparison needs the program xfoil, and it is not on the PATH."
-        )
-    commands = (
-        f"PLOP\nG F\n\nNACA 0015\nPPAR\nN 200\n\n\nOPER\nVISC {tables.MEASURED_REYNOLDS}\n"
-        f"VPAR\nN {n_crit}\nXTR {x_trip} {x_trip}\n\nITER 200\nPACC\npolar.txt\n\n"
-        f"ASEQ {ALPHA[0]} {ALPHA[-1]} {ALPHA[1] - ALPHA[0]}\nPACC\n\nQUIT\n"
-    )
-    with tempfile.TemporaryDirectory() as folder:
-        subprocess.run(
-            ["xfoil"], input=commands, text=True, cwd=folder, capture_output=True, timeout=120
-        )
-        path = Path(folder) / "polar.txt"
-        data = np.loadtxt(path, skiprows=12, usecols=(0, 1, 2)) if path.exists() else np.empty(0)
-    if data.size == 0:
-        raise tables.TableError(
-            "XFOIL gave no result; README.md says what Debian's build of it needs."
-        )
-    return data.T
+def quantities(alpha, cl, cd):
+    """The quantities of QUANTITIES of a polar from 0 deg upwards."""
+    peak = int(np.argmax(np.diff(cl) <= 0))
+    return {
+        "slope_per_rad": tables.lift_slope(alpha, cl),
+        "cd0": cd[0],
+        "cl_max": cl[peak],
+        "stall_deg": alpha[peak],
+    }
 
 
-def candidate_polar(method, n_crit, x_trip):
-    """alpha (deg), cl, cd of one candidate."""
-    if method == "XFOIL":
-        return xfoil_polar(n_crit, x_trip)
-    cl, cd, _ = tables.neuralfoil_polar(ALPHA, tables.MEASURED_REYNOLDS, n_crit, x_trip)
-    return ALPHA, cl, cd
+def shipped(section):
+    """Reynolds numbers of a shipped polar and its quantities there."""
+    _, blocks = make_slopes.read_polar(tables.OUTPUT / f"{section}.polar")
+    columns = []
+    for _, rows in blocks:
+        alpha, cl, cd = rows[(rows[:, 0] >= 0) & (rows[:, 0] <= 30)].T
+        columns.append(quantities(alpha, cl, cd))
+    reynolds = np.array([reynolds for reynolds, _ in blocks])
+    return reynolds, {name: np.array([c[name] for c in columns]) for name in QUANTITIES}
 
 
-def slope_range(method, n_crit, x_trip):
-    """Smallest and largest lift slope (1/rad) over all Reynolds numbers of the tables."""
-    if method == "XFOIL":
-        return "-"
-    slopes = [
-        tables.lift_slope(ALPHA, tables.neuralfoil_polar(ALPHA, reynolds, n_crit, x_trip)[0])
-        for reynolds in tables.REYNOLDS
+def uncorrected(section, reynolds):
+    """The quantities that NeuralFoil computes."""
+    columns = [
+        quantities(tables.FINE_DEG, *tables.computed_polar(re, section)[:2]) for re in reynolds
     ]
-    return f"{min(slopes):.2f} to {max(slopes):.2f}"
+    return {name: np.array([c[name] for c in columns]) for name in QUANTITIES}
 
 
-def label(method, n_crit, x_trip):
-    """Name of a candidate in the table and the figure."""
-    return f"{method}, n_crit {n_crit}, " + (
-        "free" if x_trip == 1 else f"tripped at {x_trip * 100:.0f} %"
-    )
+def points():
+    """Points: source, section, Reynolds number and quantities at Mach 0; NaN where not given."""
+    knot_cl, knot_cd = tables.fit_measured()[:2]
+    own = quantities(tables.KNOTS, knot_cl, knot_cd)
+    found = [("knight-hefner", "naca0015", tables.MEASURED_REYNOLDS, own)]
+    for row in tables.assessed_rows(""):
+        numbers = {name: float(row[name] or "nan") for name in QUANTITIES}
+        numbers["slope_per_rad"] *= np.sqrt(1 - float(row["mach"] or 0) ** 2)
+        source = max((s for s in SOURCES if row["source"].startswith(s)), key=len)
+        found.append((source, row["section"], float(row["reynolds"]), numbers))
+    return found
 
 
 def compare():
-    """Compute each candidate, print its distances and draw the figure."""
-    print(
-        "| candidate | points | mean dcl | max dcl | mean dcd | max dcd | mean dcl to 8 deg "
-        "| mean dcd to 8 deg | cd at 0 | slope, 1/rad | slope, Re 2e4 to 1e7 |"
-    )
-    print("|---|" + "---:|" * 10)
-    polars = {}
-    for candidate in CANDIDATES:
-        tables.progress(label(*candidate))
-        alpha, cl, cd = polars[candidate] = candidate_polar(*candidate)
-        whole, low = alpha <= tables.KNOTS[-1], alpha <= tables.BELOW_STALL_DEG
-        far = tables.distance(alpha[whole], cl[whole], cd[whole])
-        near = tables.distance(alpha[low], cl[low], cd[low])
-        print(
-            f"| {label(*candidate)} | {whole.sum()} | {far['mean_dcl']:.4f} | {far['max_dcl']:.4f} "
-            f"| {far['mean_dcd']:.5f} | {far['max_dcd']:.5f} | {near['mean_dcl']:.4f} "
-            f"| {near['mean_dcd']:.5f} | {cd[0]:.5f} "
-            f"| {tables.lift_slope(alpha, cl):.2f} | {slope_range(*candidate)} |"
-        )
-    draw(polars)
+    """Print the points that are measured alone beside the tables, and draw all of them."""
+    print("| section | Re | source | quantity | measured | table | difference | uncorrected |")
+    print("|---|---:|---|---|---:|---:|---:|---:|")
+    curves = {section: shipped(section) for section in SECTIONS}
+    for source, section, reynolds, numbers in points():
+        if source == "sheldahl-klimas":
+            continue
+        block = tables.corrected_block(reynolds, section)
+        ours = quantities(block.alpha, block.cl, block.cd)
+        raw = uncorrected(section, [reynolds])
+        for name, title in QUANTITIES.items():
+            if np.isnan(numbers[name]):
+                continue
+            digits = {"cd0": 4, "stall_deg": 1}.get(name, 2)
+            print(
+                f"| {SECTIONS[section]} | {reynolds:,.0f} | {SOURCES[source][0]} | {title} "
+                f"| {numbers[name]:.{digits}f} | {ours[name]:.{digits}f} "
+                f"| {ours[name] / numbers[name] - 1:+.0%} | {raw[name][0]:.{digits}f} |"
+            )
+    draw(curves)
 
 
-def draw(polars):
-    """Lift and drag against alpha: measured points, the fit and the NeuralFoil candidates."""
-    position, alpha, cl, cd = tables.measured_points()
-    knot_cl, knot_cd = tables.fit_measured()[:2]
-    figure, axes = plt.subplots(1, 2, figsize=(11, 5), layout="constrained")
-    for axis, points, knots, column in ((axes[0], cl, knot_cl, 1), (axes[1], cd, knot_cd, 2)):
-        for candidate, style in DRAWN.items():
-            polar = polars[candidate]
-            chosen = candidate == ("NeuralFoil", tables.N_CRIT, 1.0)
-            axis.plot(
-                polar[0], polar[column], style, color="black" if chosen else "0.4",
-                linewidth=1.2, label=label(*candidate) + (" (chosen)" if chosen else ""),
+def draw(curves):
+    """Each quantity against the Reynolds number, for both sections."""
+    figure, axes = plt.subplots(
+        len(QUANTITIES), len(SECTIONS), figsize=(11, 13), sharex=True, sharey="row",
+        layout="constrained",
+    )  # fmt: skip
+    for column, section in enumerate(SECTIONS):
+        reynolds, table = curves[section]
+        raw = uncorrected(section, reynolds)
+        for row, (name, title) in enumerate(QUANTITIES.items()):
+            axis = axes[row, column]
+            axis.plot(reynolds, raw[name], ":", color="0.4", label="NeuralFoil, not corrected")
+            axis.plot(reynolds, table[name], "k.-", linewidth=1.6, label="shipped table")
+            if name == "slope_per_rad":
+                fit = reynolds >= tables.MEASURED_REYNOLDS
+                axis.plot(
+                    reynolds[fit], tables.mccroskey_slope(reynolds[fit]), "--", color="tab:red",
+                    linewidth=3, alpha=0.5, label="McCroskey 1987, fit for NACA 0012",
+                )  # fmt: skip
+            axis.grid(color="0.85", linewidth=0.6)
+            axis.set_xscale("log")
+            if column == 0:
+                axis.set_ylabel(title)
+        axes[0, column].set_title(SECTIONS[section])
+        axes[-1, column].set_xlabel("Reynolds number")
+    drawn = set()
+    for source, section, reynolds, numbers in points():
+        title, marker, used = SOURCES[source]
+        color = f"C{list(SOURCES).index(source)}"
+        for row, name in enumerate(QUANTITIES):
+            axes[row, list(SECTIONS).index(section)].plot(
+                reynolds, numbers[name], marker, color=color, markersize=7, linestyle="none",
+                markerfacecolor=color if used else "white",
+                label="_" if source in drawn else title,
             )  # fmt: skip
-        axis.plot(tables.KNOTS, knots, "k-", linewidth=2.4, label="fit to the measurements")
-        for name, marker in (("A", "o"), ("B", "s")):
-            here = position == name
-            axis.plot(
-                alpha[here], points[here], marker, color="black", markerfacecolor="white",
-                markersize=5, label=f"measured, position {name}",
-            )  # fmt: skip
-        axis.set_xlabel("angle of attack, deg")
-        axis.set_xlim(0, ALPHA[-1])
-        axis.set_ylim(bottom=0)
-        axis.grid(color="0.85", linewidth=0.6)
-    axes[0].set_ylabel("lift coefficient cl")
-    axes[1].set_ylabel("drag coefficient cd")
-    axes[1].legend(loc="upper left", fontsize=9)
+            drawn.add(source)
+    axes[0, 0].set_ylim(5, 7)
+    axes[1, 0].set_ylim(0, 0.024)
+    axes[2, 0].set_ylim(0.4, 2)
+    axes[3, 0].set_ylim(4, 22)
+    handles, labels = [], []
+    for axis in axes.flat:
+        for handle, name in zip(*axis.get_legend_handles_labels(), strict=True):
+            if name not in labels:
+                handles.append(handle)
+                labels.append(name)
+    figure.legend(handles, labels, loc="outside lower center", ncols=2, fontsize=9)
     figure.suptitle(
-        "NACA 0015 at Re 242,000 (measured: Knight & Hefner 1937, folded by symmetry)", fontsize=11
+        "The tables against measurements at Mach 0 (filled: used in the correction)", fontsize=11
     )
-    figure.savefig(tables.HERE / "comparison.png", dpi=130)
+    figure.savefig(tables.HERE / "comparison.png", dpi=110)
 
 
 def main():
@@ -143,7 +159,7 @@ def main():
     try:
         compare()
     except (tables.TableError, OSError) as error:
-        sys.exit(f"The candidates were not compared: {error}")
+        sys.exit(f"The tables were not compared: {error}")
 
 
 if __name__ == "__main__":

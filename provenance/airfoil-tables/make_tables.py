@@ -11,6 +11,7 @@ import csv
 import os
 import sys
 from dataclasses import dataclass
+from functools import cache
 from importlib.metadata import version
 from pathlib import Path
 
@@ -19,13 +20,14 @@ import numpy as np
 HERE = Path(__file__).resolve().parent
 OUTPUT = HERE.parents[1] / "modelDescription" / "resources" / "airfoils"
 MEASURED_CSV = HERE / "airfoil-naca0015-knight-hefner-1937-Re242000.csv"
+ASSESSED_CSV = HERE / "assessed-measurements.csv"
 
 MEASURED_REYNOLDS = 242_000
 KNOTS = np.array([0.0, 2, 4, 6, 7, 8, 9, 10, 11, 12])
 FIT_LIMIT_DEG = 12.7
 BELOW_STALL_DEG = 8
 
-REYNOLDS = [2e4, 4e4, 7e4, 1e5, 1.5e5, 2.42e5, 4e5, 7e5, 1e6, 2e6, 5e6, 1e7]
+REYNOLDS = [2e4, 4e4, 7e4, 1e5, 1.5e5, 2.42e5, 4e5, 7e5, 1e6, 2e6, 3e6, 5e6, 1e7]
 SCALED_REYNOLDS = [4e4, 7e4, 1e5, 1.5e5, 2.42e5, 4e5, 7e5, 1e6]
 GOETTINGEN_REYNOLDS = [1e5, 2e5, 5e5, 1e6, 2e6, 3e6, 4e6, 6e6]
 MODEL_SIZE = "xlarge"
@@ -33,6 +35,10 @@ N_CRIT = 1.0
 STEP_DEG = 0.5
 PAST_STALL_DEG = 3.0
 LOWEST_CONFIDENCE = 0.85
+FINE_DEG = np.arange(301) / 10
+
+# From this Reynolds number on the computed drag at zero lift agrees with NACA Rep. 586.
+AGREED_DRAG_REYNOLDS = 3.54e6
 
 ASPECT_RATIO = 50
 CD_MAX = 1.11 + 0.018 * ASPECT_RATIO
@@ -55,6 +61,11 @@ CDmax = 1.11 + 0.018 AR, AR = {ASPECT_RATIO}, so CDmax = {CD_MAX:.2f} (two-dimen
 From 90 deg to 180 deg - match as in NREL's AirfoilPrep and CCBlade: drag mirrored about
 90 deg, lift mirrored and times -{REVERSED_LIFT}; from there lift linear to 0 at 180 deg.
 Drag is held at or above the drag at zero lift. No data stand behind these ranges.
+""".strip()
+
+MATCH = f"""
+Match angle: {PAST_STALL_DEG:.0f} deg beyond the first maximum of the computed cl, then corrected like the
+stall angle; NeuralFoil's own confidence is at least {LOWEST_CONFIDENCE} up to there.
 """.strip()
 
 
@@ -159,24 +170,128 @@ def neuralfoil_polar(alpha, reynolds, n_crit, x_trip=1.0, airfoil="naca0015"):
     return result["CL"], result["CD"], result["analysis_confidence"]
 
 
+@cache
+def computed_polar(reynolds, airfoil):
+    """cl, cd and confidence of a symmetric airfoil by NeuralFoil at FINE_DEG, and its first peak.
+
+    The peak is the index of the first maximum of cl.
+    """
+    cl, cd, confidence = neuralfoil_polar(FINE_DEG, reynolds, N_CRIT, airfoil=airfoil)
+    cl[0] = 0.0
+    return cl, cd, confidence, int(np.argmax(np.diff(cl) <= 0))
+
+
+def assessed_rows(source):
+    """Rows of the assessed measurements whose source begins with the given text."""
+    with ASSESSED_CSV.open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+    return [row for row in rows if row["source"].startswith(source)]
+
+
+def mccroskey_slope(reynolds):
+    """Lift slope (1/rad) of NACA 0012 at Mach 0: McCroskey, NASA TM 100019 (1987), Fig. 3."""
+    return np.degrees(0.1025 + 0.00485 * np.log10(reynolds / 1e6))
+
+
+def target_slope(reynolds, airfoil):
+    """Lift slope (1/rad) of a corrected table.
+
+    McCroskey's fit; below the Reynolds number of the measured NACA 0015 the computed slope times
+    the ratio there, because no assessed measurement supports the fit at lower ones.
+    """
+    edge = max(reynolds, MEASURED_REYNOLDS)
+    here, there = (lift_slope(FINE_DEG, computed_polar(re, airfoil)[0]) for re in (reynolds, edge))
+    return mccroskey_slope(edge) * here / there
+
+
+@dataclass
+class Correction:
+    """Assessed over computed values at a Reynolds number."""
+
+    largest_lift: float
+    stall_angle: float
+    drag: float
+
+
+@cache
+def stall_anchors():
+    """Reynolds numbers, and there assessed over computed cl max and stall angle."""
+    knot_cl = fit_measured()[0]
+    measured = int(np.argmax(knot_cl))
+    anchors = [("naca0015", MEASURED_REYNOLDS, knot_cl[measured], KNOTS[measured])]
+    for source, reynolds in (("sheldahl-klimas", 7e5), ("gregory-oreilly", 3e6), ("ladson", 6e6)):
+        rows = [
+            row
+            for row in assessed_rows(source)
+            if float(row["reynolds"]) == reynolds and row["cl_max"]
+        ]
+        cl, stall = (
+            np.mean([float(row[name]) for row in rows]) for name in ("cl_max", "stall_deg")
+        )
+        anchors.append((rows[0]["section"], reynolds, cl, stall))
+    ratios = []
+    for airfoil, reynolds, largest, stall in anchors:
+        cl, _, _, peak = computed_polar(reynolds, airfoil)
+        ratios.append((reynolds, largest / cl[peak], stall / FINE_DEG[peak]))
+    return np.array(ratios).T
+
+
+def correction(reynolds):
+    """The ratios at a Reynolds number: linear in ln Re between the anchors, constant beyond."""
+    anchors, largest_lift, stall_angle = stall_anchors()
+    drag = fit_measured()[1][0] / computed_polar(MEASURED_REYNOLDS, "naca0015")[1][0]
+    edges = np.log([MEASURED_REYNOLDS, AGREED_DRAG_REYNOLDS])
+    position = np.log(reynolds)
+    return Correction(
+        np.interp(position, np.log(anchors), largest_lift),
+        np.interp(position, np.log(anchors), stall_angle),
+        np.interp(position, edges, [drag, 1.0]),
+    )
+
+
+def corrected_block(reynolds, airfoil):
+    """A symmetric section by NeuralFoil, taken to assessed slope, stall and drag at zero lift.
+
+    Near zero lift cl is multiplied by the ratio of the slopes. Towards stall this factor and the
+    angle of attack go over to the ratios of cl max and of stall angle, with the weight
+    x^3 (4 - 3 x), x the computed angle over the computed stall angle; beyond stall the weight is 1.
+    cd belongs to the same point of the polar, so that it rises earlier with the stall.
+    """
+    cl, cd, confidence, peak = computed_polar(reynolds, airfoil)
+    ratio = correction(reynolds)
+    x = np.minimum(FINE_DEG / FINE_DEG[peak], 1.0)
+    weight = x**3 * (4 - 3 * x)
+    angle = FINE_DEG * (1 + (ratio.stall_angle - 1) * weight)
+    if np.any(np.diff(angle) <= 0):
+        raise TableError(f"At Re {reynolds:.0f} the corrected angles do not increase.")
+    alpha = np.arange(0, 30 + STEP_DEG, STEP_DEG)
+    target = target_slope(reynolds, airfoil)
+    slope = target / lift_slope(FINE_DEG, cl)
+    for _ in range(20):  # the weight changes the slope over +-4 deg a little
+        lift = np.interp(alpha, angle, cl * (slope + (ratio.largest_lift - slope) * weight))
+        slope *= target / lift_slope(alpha, lift)
+    beyond = int(np.argmax(FINE_DEG >= FINE_DEG[peak] + PAST_STALL_DEG))
+    last = int(np.argmax(alpha > angle[beyond])) - 1
+    check_confidence(reynolds, alpha[last], confidence[: beyond + 1])
+    drag = ratio.drag * np.interp(alpha, angle, cd)
+    return extend(reynolds, alpha[: last + 1], lift[: last + 1], drag[: last + 1])
+
+
+def check_confidence(reynolds, match, confidence):
+    """Refuse a polar of which NeuralFoil itself is not confident up to the match angle (deg)."""
+    if confidence.min() < LOWEST_CONFIDENCE:
+        raise TableError(
+            f"At Re {reynolds:.0f} NeuralFoil's confidence falls below {LOWEST_CONFIDENCE} "
+            f"before the match angle of {match} deg."
+        )
+
+
 def carried_on(reynolds, alpha, cl, cd, confidence):
     """A polar to PAST_STALL_DEG beyond the first maximum of cl, then post-stall."""
     stall = int(np.argmax(np.diff(cl) <= 0))
     last = stall + round(PAST_STALL_DEG / STEP_DEG)
-    if confidence[: last + 1].min() < LOWEST_CONFIDENCE:
-        raise TableError(
-            f"At Re {reynolds:.0f} NeuralFoil's confidence falls below {LOWEST_CONFIDENCE} "
-            f"before the match angle of {alpha[last]} deg."
-        )
+    check_confidence(reynolds, alpha[last], confidence[: last + 1])
     return extend(reynolds, alpha[: last + 1], cl[: last + 1], cd[: last + 1])
-
-
-def computed_block(reynolds, airfoil="naca0015"):
-    """A symmetric section by NeuralFoil."""
-    alpha = np.arange(0, 30 + STEP_DEG, STEP_DEG)
-    cl, cd, confidence = neuralfoil_polar(alpha, reynolds, N_CRIT, airfoil=airfoil)
-    cl[0] = 0.0
-    return carried_on(reynolds, alpha, cl, cd, confidence)
 
 
 def goettingen_block(reynolds):
@@ -325,57 +440,82 @@ Match angle: {KNOTS[-1]:.0f} deg, the last knot.
     return render("NACA 0015, Knight & Hefner 1937, drag by Reynolds number", header, blocks)
 
 
-def computed_file():
-    """naca0015.polar"""
+def corrected_method():
+    """Header lines on how a corrected table is made."""
+    low, high = correction(MEASURED_REYNOLDS), correction(6e6)
+    return f"""
+Method: NeuralFoil {version("neuralfoil")} (P. Sharpe), model size {MODEL_SIZE}, Mach 0,
+free transition with n_crit {N_CRIT:.0f} (free-stream turbulence about 2 % by Mack's relation),
+computed for alpha >= 0, corrected and mirrored. The uncorrected lift is 5 to 8 % too steep, and
+its largest value too high. provenance/airfoil-tables/README.md says which measurements could be read, and
+compares this table with them:
+- lift slope: McCroskey (1987), NASA TM 100019, fit to measurements of NACA 0012,
+  0.1025 + 0.00485 log10(Re/1e6) per deg at Mach 0, from Re {MEASURED_REYNOLDS:,} up;
+  below, the computed slope times the ratio at {MEASURED_REYNOLDS:,};
+- largest lift and its angle: times {low.largest_lift:.2f} and {low.stall_angle:.2f} up to Re {MEASURED_REYNOLDS:,} (NACA 0015, Knight &
+  Hefner 1937), by way of Sheldahl & Klimas (1981) at 700,000 and Gregory & O'Reilly (1970) at
+  3,000,000 to {high.largest_lift:.2f} and {high.stall_angle:.2f} from 6,000,000 up (NACA 0012, Ladson 1988), linear in ln Re;
+- drag: times {low.drag:.2f} up to Re {MEASURED_REYNOLDS:,} (Knight & Hefner), rising to 1 at {AGREED_DRAG_REYNOLDS:,.0f}, where it is
+  that of a turbulent tunnel (Jacobs & Sherman 1937): at Re 6,000,000 between that with free
+  transition in smooth flow and that with fixed.
+The ratios of one section stand for both. The format has no Mach number; the rules for
+compressibility act on this table.
+""".strip("\n")
+
+
+def corrected_numbers(block):
+    """A header line on lift slope, drag and largest lift of a block."""
+    peak = int(np.argmax(np.diff(block.cl) <= 0))
+    return (
+        f"Re {block.reynolds:,.0f}: lift slope over +-4 deg {lift_slope(block.alpha, block.cl):.2f} "
+        f"per rad, cd {block.cd[0]:.5f} at 0 deg,\nfirst peak of cl {block.cl[peak]:.2f} "
+        f"at {block.alpha[peak]:.1f} deg."
+    )
+
+
+def corrected_blocks(airfoil):
+    """The blocks of a corrected table."""
     blocks = []
     for reynolds in REYNOLDS:
         progress(f"  Re {reynolds:.0f}")
-        blocks.append(computed_block(reynolds))
+        blocks.append(corrected_block(reynolds, airfoil))
+    return blocks
+
+
+def naca0015_file():
+    """naca0015.polar"""
+    blocks = corrected_blocks("naca0015")
     block = blocks[REYNOLDS.index(MEASURED_REYNOLDS)]
     compared = block.alpha <= KNOTS[-1]
     far = distance(block.alpha[compared], block.cl[compared], block.cd[compared])
-    slope, measured_slope = lift_slope(block.alpha, block.cl), lift_slope(KNOTS, fit_measured()[0])
+    numbers = "\n".join(corrected_numbers(blocks[REYNOLDS.index(re)]) for re in (2.42e5, 1e6, 5e6))
     header = f"""
-NACA 0015, computed. Made by provenance/airfoil-tables/make_tables.py; do not edit.
-Method: NeuralFoil {version("neuralfoil")} (P. Sharpe), model size {MODEL_SIZE}, Mach 0,
-free transition with n_crit {N_CRIT:.0f} (free-stream turbulence about 2 % by Mack's relation),
-computed for alpha >= 0 and mirrored.
-Chosen by comparison with the measurements of Knight & Hefner (1937) at Re {MEASURED_REYNOLDS:,};
-the table of candidates is in provenance/airfoil-tables/README.md.
+NACA 0015, computed and corrected to measurements. Made by provenance/airfoil-tables/make_tables.py; do not
+edit.
+{corrected_method()}
 Distance from naca0015-knight-hefner.polar at Re {MEASURED_REYNOLDS:,}, 0 to 12 deg:
 |dcl| mean {far["mean_dcl"]:.4f}, max {far["max_dcl"]:.4f};
-|dcd| mean {far["mean_dcd"]:.5f}, max {far["max_dcd"]:.5f};
-lift slope over +-4 deg {slope:.2f} per rad against {measured_slope:.2f} measured.
-The largest differences lie at 12 deg, where the measured section has stalled already.
-Match angle: {PAST_STALL_DEG:.0f} deg beyond the first maximum of cl; NeuralFoil's own confidence is
-at least {LOWEST_CONFIDENCE} up to there.
+|dcd| mean {far["mean_dcd"]:.5f}, max {far["max_dcd"]:.5f}.
+{numbers}
+{MATCH}
 {POST_STALL}
 """
-    return render("NACA 0015, NeuralFoil", header, blocks)
+    return render("NACA 0015, NeuralFoil, corrected", header, blocks)
 
 
 def naca0012_file():
     """naca0012.polar"""
-    blocks = []
-    for reynolds in REYNOLDS:
-        progress(f"  Re {reynolds:.0f}")
-        blocks.append(computed_block(reynolds, "naca0012"))
-    block = blocks[REYNOLDS.index(2e6)]
-    slope = lift_slope(block.alpha, block.cl)
-    peak = float(block.cl[block.alpha == block.match - PAST_STALL_DEG][0])
+    blocks = corrected_blocks("naca0012")
+    numbers = "\n".join(corrected_numbers(blocks[REYNOLDS.index(re)]) for re in (1e6, 2e6, 5e6))
     header = f"""
-NACA 0012, computed. Made by provenance/airfoil-tables/make_tables.py; do not edit.
-Method: NeuralFoil {version("neuralfoil")} (P. Sharpe), model size {MODEL_SIZE}, Mach 0,
-free transition with n_crit {N_CRIT:.0f} (free-stream turbulence about 2 % by Mack's relation),
-computed for alpha >= 0 and mirrored. n_crit is assumed: it is that of naca0015.polar, chosen there
-by comparison with measurements; this table is compared with none.
-Re 2,000,000: lift slope over +-4 deg {slope:.2f} per rad, cd {block.cd[0]:.5f} at 0 deg,
-first peak of cl {peak:.2f}.
-Match angle: {PAST_STALL_DEG:.0f} deg beyond the first maximum of cl; NeuralFoil's own confidence is
-at least {LOWEST_CONFIDENCE} up to there.
+NACA 0012, computed and corrected to measurements. Made by provenance/airfoil-tables/make_tables.py; do not
+edit.
+{corrected_method()}
+{numbers}
+{MATCH}
 {POST_STALL}
 """
-    return render("NACA 0012, NeuralFoil", header, blocks)
+    return render("NACA 0012, NeuralFoil, corrected", header, blocks)
 
 
 def goettingen_numbers(block):
@@ -401,8 +541,11 @@ def goettingen_file():
         blocks.append(goettingen_block(reynolds))
     numbers = [goettingen_numbers(blocks[GOETTINGEN_REYNOLDS.index(re)]) for re in (2e6, 4e6)]
     header = f"""
-Goettingen 429, computed; no measured table of this section was found. Made by
+Goettingen 429, computed and not corrected; no measured table of this section was found. Made by
 provenance/airfoil-tables/make_tables.py; do not edit.
+The lift is too steep and its largest value too high: the same method gives the NACA 0012 and 0015
+slopes that are 5 to 8 % above the measured ones, and a largest lift 6 to 32 % above. Their
+corrections are not applied here, because the trailing edge of this section is almost a cusp.
 Coordinates: GOE 429 of the UIUC airfoil database (33 points, four decimals) as in AeroSandbox
 {version("aerosandbox")}: 11.4 % thick, meant to be symmetric; its camber of 0.2 % is kept.
 Method: NeuralFoil {version("neuralfoil")} (P. Sharpe), model size {MODEL_SIZE}, Mach 0,
@@ -457,7 +600,7 @@ Re 2e5 and 1e6 drag depends on roughness and turbulence and may differ by a fact
 FILES = {
     "naca0015-knight-hefner.polar": knight_hefner_file,
     "naca0015-knight-hefner-reynolds.polar": scaled_file,
-    "naca0015.polar": computed_file,
+    "naca0015.polar": naca0015_file,
     "naca0012.polar": naca0012_file,
     "goettingen429.polar": goettingen_file,
     "wheatley-1934.polar": wheatley_file,

@@ -1,5 +1,8 @@
-# Goettingen 429, computed; no measured table of this section was found. Made by
+# Goettingen 429, computed and not corrected; no measured table of this section was found. Made by
 # provenance/airfoil-tables/make_tables.py; do not edit.
+# The lift is too steep and its largest value too high: the same method gives the NACA 0012 and 0015
+# slopes that are 5 to 8 % above the measured ones, and a largest lift 6 to 32 % above. Their
+# corrections are not applied here, because the trailing edge of this section is almost a cusp.
 # Coordinates: GOE 429 of the UIUC airfoil database (33 points, four decimals) as in AeroSandbox
 # 4.2.10: 11.4 % thick, meant to be symmetric; its camber of 0.2 % is kept.
 # Method: NeuralFoil 0.3.3 (P. Sharpe), model size xlarge, Mach 0,
