@@ -66,13 +66,6 @@ fn through_flow<S: Scalar>(a: S, climb: S, pitch_flow: S) -> S {
     (half * half + C(2.0) * a * pitch_flow).sqrt() - half
 }
 
-/// The flow and the loads at one blade element in axial flow.
-///
-/// * `rotation`: Omega r, m/s; below 1e-6 m/s there is no load
-/// * `climb`: flow down through the disc, any sign, m/s
-///
-/// # Errors
-///
 /// See `ElementInflow::load`.
 pub(super) fn load<S: Scalar>(
     disc: &Disc<S>,
@@ -85,7 +78,13 @@ pub(super) fn load<S: Scalar>(
     Ok(answer.mean_induced)
 }
 
-/// Where the data of the element or the flow are not finite, so that Prandtl's F has no solution.
+/// The flow and the loads at one blade element in axial flow.
+///
+/// Fails only if the numbers of the element or the flow are not finite, so that Prandtl's F has no
+/// solution.
+///
+/// * `rotation`: Omega r, m/s; below 1e-6 m/s there is no load
+/// * `climb`: flow down through the disc, any sign, m/s
 pub fn solve<S: Scalar>(
     element: &Element<S>,
     rotation: S,
@@ -202,6 +201,7 @@ fn factor<S: Scalar>(element: &Element<S>, rotation: S, through: S) -> S {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)] // the expectations are independent of libm
 mod tests {
     use super::*;
 
