@@ -129,7 +129,9 @@ impl Snapshot {
             return wrong("a continuous state");
         }
         if let Some(GridPoint(since)) = &self.since
-            && (!is_finite(&since.state) || !(0.0..=LONGEST_CELL).contains(&since.elapsed))
+            && (!is_finite(&since.state)
+                || !is_point_finite(&since.point)
+                || !(0.0..=LONGEST_CELL).contains(&since.elapsed))
         {
             return wrong("the integration");
         }
@@ -146,6 +148,33 @@ impl Snapshot {
 
 fn is_finite(state: &State) -> bool {
     to_vector(state).iter().all(|value| value.is_finite())
+}
+
+fn is_point_finite(point: &OperatingPoint) -> bool {
+    let OperatingPoint {
+        collective,
+        cyclic_longitudinal,
+        cyclic_lateral,
+        speed,
+        airspeed,
+        angular_velocity,
+        gravity,
+        hinge_spring,
+        height,
+        drive,
+        air,
+    } = *point;
+    let (torque, inertia) = match drive {
+        Drive::Speed => (0.0, 0.0),
+        Drive::Torque { torque, inertia } => (torque, inertia),
+    };
+    let controls = [collective, cyclic_longitudinal, cyclic_lateral, speed];
+    let others = [hinge_spring, height, torque, inertia];
+    let air = [air.density, air.speed_of_sound, air.viscosity];
+    let vectors = [airspeed, angular_velocity, gravity];
+    let components = vectors.iter().flat_map(|vector| vector.iter());
+    let numbers = controls.iter().chain(&others).chain(&air);
+    numbers.chain(components).all(|number| number.is_finite())
 }
 
 // ------------------------------------------------------------------ serialized types of rotor
@@ -320,6 +349,16 @@ mod tests {
             }));
         };
         assert_eq!(refused(&late), "the integration");
+        let nowhere = |s: &mut Snapshot| {
+            let mut point = operating_point();
+            point.airspeed.y = f64::NAN;
+            s.since = Some(GridPoint(Since {
+                point,
+                state: State::default(),
+                elapsed: 0.0,
+            }));
+        };
+        assert_eq!(refused(&nowhere), "the integration");
         let contradicting = |s: &mut Snapshot| {
             s.stage = Stage::Running;
             s.state.azimuth = 1.0;

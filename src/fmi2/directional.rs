@@ -24,16 +24,21 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
 ) -> fmi2Status {
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
-        let (unknowns, knowns, along, out) = unsafe {
+        let (unknowns, knowns, along) = unsafe {
             (
                 elements(vUnknown_ref, nUnknown, "vUnknown_ref")?,
                 elements(vKnown_ref, nKnown, "vKnown_ref")?,
                 elements(dvKnown, nKnown, "dvKnown")?,
-                room(dvUnknown, nUnknown, "dvUnknown")?,
             )
         };
+        let room = || {
+            // SAFETY: passed on from the caller. `along` is read before the room is used, so that
+            // they may be the same memory.
+            unsafe { room(dvUnknown, nUnknown, "dvUnknown") }
+        };
+        room()?;
         let changes = (instance.block).directional_derivative(unknowns, knowns, along)?;
-        fill(out, changes);
+        fill(room()?, changes);
         Ok(())
     };
     // SAFETY: passed on from the caller.

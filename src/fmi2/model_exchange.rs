@@ -77,15 +77,15 @@ pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
     terminateSimulation: *mut fmi2Boolean,
 ) -> fmi2Status {
     let body = |instance: &mut Instance| {
-        // SAFETY: passed on from the caller.
-        let (event, end) = unsafe {
-            (
-                room_for_one(enterEventMode, "enterEventMode")?,
-                room_for_one(terminateSimulation, "terminateSimulation")?,
-            )
-        };
-        event.write(instance.block.has_event()?.into());
-        end.write(FMI2_FALSE);
+        // SAFETY: passed on from the caller. One reference ends before the next is made, because an
+        // importer may pass the same place twice; the event then counts.
+        unsafe {
+            room_for_one(enterEventMode, "enterEventMode")?;
+            room_for_one(terminateSimulation, "terminateSimulation")?;
+            let has_event = instance.block.has_event()?;
+            room_for_one(terminateSimulation, "terminateSimulation")?.write(FMI2_FALSE);
+            room_for_one(enterEventMode, "enterEventMode")?.write(has_event.into());
+        }
         Ok(())
     };
     // SAFETY: passed on from the caller.

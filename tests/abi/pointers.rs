@@ -5,9 +5,9 @@
 use crate::support::{
     Instance,
     c::{self, Component, Functions, Status},
-    instance::bits,
+    instance::{bits, reference},
 };
-use helicopter_rotor::block::variables::STATES;
+use helicopter_rotor::block::variables::{REALS, STATES};
 use std::{ffi::c_void, ptr};
 
 /// Memory that is aligned for everything that is passed, and large enough for a vector of states.
@@ -242,6 +242,35 @@ fn misaligned_vectors_of_model_exchange_are_refused() {
     all_refused(&instance, &answers, "misaligned");
     assert_eq!(flag, 9);
     memory.is_untouched();
+}
+
+/// An importer that does not need an answer may pass the place of another, and derivatives may
+/// replace their direction.
+#[test]
+fn answers_may_share_their_place() {
+    let instance = Instance::for_model_exchange();
+    instance.begin_integration();
+    let (f, component) = (instance.functions, instance.component);
+    let (mut flag, mut along) = (9, 1.0);
+    let (at, rpm, thrust) = (
+        &raw mut flag,
+        reference(&REALS, "rpm"),
+        reference(&REALS, "thrust"),
+    );
+    // SAFETY: the instance lives, and all pointers are to living numbers.
+    let expected = unsafe {
+        let status = (f.fmi2CompletedIntegratorStep)(component, 1, at, at);
+        assert_eq!((status, flag), (c::OK, 0));
+        let mut expected = 9.0;
+        let derivative = f.fmi2GetDirectionalDerivative;
+        let status = derivative(component, &thrust, 1, &rpm, 1, &along, &mut expected);
+        assert_eq!(status, c::OK);
+        let at = &raw mut along;
+        let status = derivative(component, &thrust, 1, &rpm, 1, at, at);
+        assert_eq!(status, c::OK);
+        expected
+    };
+    assert_eq!(along.to_bits(), expected.to_bits());
 }
 
 /// Whatever an importer mixes up: the functions answer an error, and have no logger to say more.

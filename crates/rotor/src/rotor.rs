@@ -26,6 +26,12 @@ pub struct Rotor {
     azimuths: [Azimuth; AZIMUTHS],
 }
 
+// Threads may share a rotor.
+const _: () = {
+    const fn is_shared<T: Send + Sync>() {}
+    is_shared::<Rotor>();
+};
+
 impl Rotor {
     /// From a checked geometry, its elements, its airfoils (one for each of `geometry.airfoils`)
     /// and models. A rotor whose blades flap has at most `state::MAX_FLAPPING_BLADES`.

@@ -75,6 +75,15 @@ fn word(text: &str) -> String {
     text.chars().take_while(is_part).collect()
 }
 
+/// The code without comments and without the module of tests at its end, which may use anything.
+fn without_tests(text: &str) -> String {
+    let (code, tests) = text.split_once("\nmod tests {\n").unwrap_or((text, ""));
+    assert!(!tests.contains("\n}\n\n"), "code after the tests");
+    let lines = code.lines();
+    let lines = lines.filter(|line| !line.trim_start().starts_with("//"));
+    lines.map(|line| format!("{line}\n")).collect()
+}
+
 #[test]
 fn modules_import_only_those_before_them() {
     let order = order();
@@ -84,21 +93,17 @@ fn modules_import_only_those_before_them() {
         assert!(!files.is_empty(), "{module} of the list is no module");
         for file in files {
             let text = fs::read_to_string(&file).unwrap();
-            // Tests may use anything.
-            let code = text.split("#[cfg(test)]").next().unwrap();
-            let mut used = named(code, "crate::");
-            if file == sources().join(format!("{module}.rs"))
-                || file == sources().join(module).join("mod.rs")
-            {
-                used.extend(named(code, "super::"));
-            }
-            for name in used {
-                if order
-                    .iter()
-                    .position(|m| *m == name)
-                    .is_some_and(|p| p > place)
-                {
-                    upwards.push(format!("{module} uses {name}"));
+            let code = without_tests(&text);
+            // How the file names the crate: `crate`, and one `super` for each module around it.
+            let depth = file.strip_prefix(sources()).unwrap().iter().count();
+            let depth = depth - usize::from(file.ends_with("mod.rs"));
+            for prefix in ["crate::".to_owned(), "super::".repeat(depth)] {
+                for name in named(&code, &prefix) {
+                    // A name that the crate's page re-exports could come from any module.
+                    let found = order.iter().position(|m| *m == name);
+                    if found.is_none_or(|p| p > place) {
+                        upwards.push(format!("{module} uses {prefix}{name}"));
+                    }
                 }
             }
         }

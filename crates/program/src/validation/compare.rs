@@ -44,6 +44,7 @@ fn same_word(a: &str, b: &str) -> bool {
 }
 
 /// The value of one unit of the last digit of a printed number.
+#[allow(clippy::disallowed_methods)] // a tolerance
 fn last_digit(number: &str) -> f64 {
     let (mantissa, exponent) = number.split_once('e').unwrap_or((number, "0"));
     let decimals = mantissa

@@ -203,6 +203,7 @@ fn factor<S: Scalar>(element: &Element<S>, rotation: S, through: S) -> S {
 }
 
 #[cfg(test)]
+#[allow(clippy::disallowed_methods)] // the expectations are independent of libm
 mod tests {
     use super::*;
 
