@@ -136,9 +136,3 @@ pub(crate) fn end_lift_at<S: Scalar>(
         *share = lifting_share(radius - half, radius + half, end);
     }
 }
-
-/// Instances in different threads may share a rotor.
-const _: () = {
-    const fn shared<T: Send + Sync>() {}
-    shared::<Rotor>();
-};
