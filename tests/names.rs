@@ -229,3 +229,43 @@ fn enumeration_items_keep_their_numbers() {
     let golden = ENUMERATIONS.map(|(name, items)| (name, items.iter().copied().zip(1..).collect()));
     assert_eq!(found, golden);
 }
+
+/// Every published variable is still there, with its type and causality. Arrays stand with their
+/// first element. New variables are appended to the file when they are published.
+#[test]
+fn published_variables_keep_their_names() {
+    let description = Document::parse(XML).unwrap();
+    let variables = description
+        .descendants()
+        .filter(|n| n.has_tag_name("ScalarVariable"));
+    let present: Vec<[String; 3]> = variables
+        .map(|variable| {
+            let kind = variable.first_element_child().unwrap();
+            let type_name = kind
+                .attribute("declaredType")
+                .unwrap_or(kind.tag_name().name());
+            let attribute = |name| variable.attribute(name).unwrap().to_owned();
+            [
+                attribute("name"),
+                type_name.to_owned(),
+                attribute("causality"),
+            ]
+        })
+        .collect();
+    let file = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/tests/data/published-names.csv"
+    );
+    let mut published = csv::Reader::from_path(file).unwrap();
+    let mut count = 0;
+    for record in published.records() {
+        let record = record.unwrap();
+        let row = [0, 1, 2].map(|column| record[column].to_owned());
+        assert!(
+            present.contains(&row),
+            "{row:?} is not in modelDescription.xml"
+        );
+        count += 1;
+    }
+    assert!(count > 80, "{count} names");
+}
