@@ -56,7 +56,7 @@ fn every_rotor_hovers() {
         assert!((5e-5..2e-3).contains(&torque), "{name}: CQ {torque}");
         count += 1;
     }
-    assert!(count >= 6);
+    assert!(count >= 7);
 }
 
 /// Castles & Gray's hover tests (NACA TN 2474, Table V). Repeated runs differ by up to 20 % below
