@@ -250,7 +250,8 @@ fn derivatives_at_known_corners() {
         to_both_sides(&mut block, real::COLLECTIVE);
     }
 
-    // A stopped rotor in edgewise wind: on half of it the air comes from behind, at exactly 180 deg.
+    // A stopped rotor in edgewise wind: on half of it the air comes from behind, at exactly 180
+    // deg.
     let mut block = default_block();
     choose(&mut block, integer::MODELS__INFLOW, "uniform");
     set(&mut block, real::COLLECTIVE, 0.0);

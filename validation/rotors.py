@@ -62,6 +62,7 @@ def own_folder():
 # degrees Celsius at sea-level pressure.
 CASTLES_GRAY_RADIUS = 0.9144
 CASTLES_GRAY = {"geometry.file": "castles-gray-6ft.toml", **air(1.177, 300.0)}
+CASTLES_GRAY_TWISTED = {**CASTLES_GRAY, "geometry.file": "castles-gray-6ft-twist12.toml"}
 
 # The rotor of the thesis, with a tip speed of 55 m/s. The chord in its file is ASSUMED.
 THESIS_RADIUS = 1.22

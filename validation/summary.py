@@ -6,6 +6,7 @@ import page
 HOVER_1, HOVER_2 = "Knight & Hefner 1937, hover", "Castles & Gray 1951, hover"
 HOVER_3 = "Caradonna & Tung 1981, hover"
 DESCENT = "Castles & Gray 1951, descent"
+TWISTED = "Castles & Gray 1951, descent, twisted"
 FORWARD = "PCA-2 autogiro 1934, forward flight"
 MEASURED = "the law of descent is fitted to these runs"
 # Case, quantity and model as in the errors, the models in the table, the label in the figure.
@@ -50,6 +51,15 @@ CHOSEN = [
         "momentum, uniform",
         "`uniform`, descent `momentum`",
         "the same, momentum",
+    ),
+    (TWISTED, "collective", "measured, annulus", "defaults", "descent, twisted: collective"),
+    (TWISTED, "collective", "measured, uniform", "`uniform`", "the same, uniform"),
+    (
+        TWISTED,
+        "collective",
+        "johnson, uniform",
+        "`uniform`, descent `johnson`",
+        "the same, johnson",
     ),
     (FORWARD, "coning", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: coning"),
     (

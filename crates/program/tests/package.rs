@@ -59,6 +59,7 @@ fn the_archive_holds_what_an_importer_and_a_reader_expect() {
         "resources/rotors/knight-hefner-3.toml",
         "resources/rotors/pca-2.toml",
         "resources/rotors/castles-gray-6ft.toml",
+        "resources/rotors/castles-gray-6ft-twist12.toml",
         "resources/rotors/caradonna-tung.toml",
         "resources/rotors/thesis.toml",
         "extra/org.fmi-standard.fmi-ls-ref/fmi-ls-manifest.xml",

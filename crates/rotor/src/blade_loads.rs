@@ -13,8 +13,8 @@ pub struct ElementLoads<S = f64> {
     pub angle_of_attack: S,
     /// Induced velocity at the blades, positive down, m/s.
     pub induced_velocity: S,
-    /// Mean induced velocity around the annulus, m/s. Prandtl's F in the momentum makes it less than
-    /// that at the blades.
+    /// Mean induced velocity around the annulus, m/s. Prandtl's F in the momentum makes it less
+    /// than that at the blades.
     pub mean_induced_velocity: S,
     /// Speed of the flow at the section, m/s.
     pub speed: S,

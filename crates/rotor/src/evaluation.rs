@@ -5,7 +5,7 @@ use super::{
     blade::Blade,
     disc::{Azimuth, BladePosition, BladePositions, DiscFlow, Flap, WindAxes},
     flapping::{Action, Freedom},
-    inflow::{Disc, Ground, InflowStates, Momentum, Stream},
+    inflow::{DescentLaw, Disc, Ground, InflowStates, Momentum, Stream},
     models::Blades,
     operating_point::OperatingPoint,
     rotor::Rotor,
@@ -28,6 +28,7 @@ pub struct Evaluation<'a, S = f64> {
     pub(crate) state: &'a State<S>,
     pub(crate) axes: WindAxes<S>,
     pub(crate) flow: DiscFlow<S>,
+    pub(crate) descent: DescentLaw<S>,
     /// In wind axes.
     pub(crate) gravity: Vector3<S>,
     /// In wind axes.
@@ -101,9 +102,13 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
             cyclic_sin,
             hinge: rotor.models().hinge.offset,
         };
+        let tip_speed = flow.rotation.abs() * rotor.geometry().radius;
+        let descent = rotor
+            .models()
+            .descent
+            .of_rotor(rotor.thrust_radius(), flow.climb, tip_speed);
         // A decaying asymmetry never becomes exactly 0.
-        let speeds =
-            flow.rotation.abs() * rotor.geometry().radius + flow.edgewise + flow.climb.abs();
+        let speeds = tip_speed + flow.edgewise + flow.climb.abs();
         let limit = SYMMETRIC * speeds.value();
         let is_symmetric = flow.is_axisymmetric() && inflow.is_axisymmetric(&state.inflow, limit);
         let is_individual = !inflow.is_axial_only()
@@ -124,6 +129,7 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
             state,
             axes,
             flow,
+            descent,
             gravity: Vector3::new(gravity_x, gravity_y, gravity.z),
             inflow_states: inflow.into_wind(&state.inflow, &axes),
             positions,
@@ -166,7 +172,7 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
             positions: &self.positions,
             is_individual: self.is_individual,
             momentum: Momentum {
-                descent: models.descent,
+                descent: self.descent,
                 ground: Ground {
                     effect: models.ground_effect,
                     height_ratio: self.point.height / rotor.geometry().radius,
@@ -181,7 +187,7 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
             edgewise: self.flow.edgewise,
             climb: self.flow.climb,
             radius: self.rotor.geometry().radius,
-            descent: self.rotor.models().descent,
+            descent: self.descent,
         }
     }
 

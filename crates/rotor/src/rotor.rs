@@ -4,6 +4,7 @@ use super::{
     airfoil::Airfoil,
     disc::{AZIMUTHS, Azimuth, Flap, evenly_spaced},
     geometry::{Elements, Geometry, Rotation},
+    inflow::ThrustRadius,
     models::Models,
     operating_point::OperatingPoint,
     scalar::Scalar,
@@ -22,6 +23,8 @@ pub struct Rotor {
     /// Fraction of each element that carries lift, where the blade's shape alone decides where the
     /// lift ends.
     lifting_shares: Vec<f64>,
+    /// Where along the blades the thrust acts.
+    thrust_radius: ThrustRadius,
     /// The azimuths over which a disc without axial symmetry is averaged.
     azimuths: [Azimuth; AZIMUTHS],
 }
@@ -46,12 +49,14 @@ impl Rotor {
         if let Some(end) = models.tip_loss.fixed_end(&geometry) {
             end_lift_at(end, &geometry, &elements, &mut lifting_shares);
         }
+        let thrust_radius = ThrustRadius::new(&geometry, &elements);
         Self {
             geometry,
             airfoils,
             elements,
             models,
             lifting_shares,
+            thrust_radius,
             azimuths: evenly_spaced(),
         }
     }
@@ -80,6 +85,11 @@ impl Rotor {
     /// where the lift ends.
     pub(crate) fn lifting_shares(&self) -> &[f64] {
         &self.lifting_shares
+    }
+
+    /// Where along the blades the thrust acts.
+    pub(crate) fn thrust_radius(&self) -> &ThrustRadius {
+        &self.thrust_radius
     }
 
     /// The azimuths over which a disc without axial symmetry is averaged.

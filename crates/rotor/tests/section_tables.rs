@@ -89,8 +89,8 @@ fn naca_0015_agrees_with_the_measurements_at_low_reynolds_number() {
     let reynolds = 242_000.0;
     let measured = published_airfoil("naca0015-knight-hefner.polar");
     let table = published_airfoil("naca0015.polar");
-    // The points up to 4 deg, and what Knight & Hefner themselves take (Castles & Gray 1951, NACA TN
-    // 2474, Table VIII).
+    // The points up to 4 deg, and what Knight & Hefner themselves take (Castles & Gray 1951, NACA
+    // TN 2474, Table VIII).
     for measured in [5.55, 5.73] {
         assert_near(slope(&table, reynolds), measured, 0.03, "lift slope");
     }

@@ -381,7 +381,7 @@ pub(super) mod tests {
                 height_ratio: S::one(),
             };
             let momentum = Momentum {
-                descent: Descent::Measured,
+                descent: Descent::Measured.unstretched(),
                 ground,
             };
             let inflow = solve(&element, &flow, &[position], &momentum);
@@ -435,7 +435,7 @@ pub(super) mod tests {
                 };
                 let anywhere = BladePosition::new(Default::default(), Default::default(), 0.0);
                 let momentum = Momentum {
-                    descent: Descent::Momentum,
+                    descent: Descent::Momentum.unstretched(),
                     ground: Ground::default(),
                 };
                 let inflow = solve(&element, &flow, &[anywhere], &momentum).unwrap();

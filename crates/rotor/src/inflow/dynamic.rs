@@ -3,7 +3,7 @@
 
 use super::{
     InflowStates,
-    descent::{Descent, MassFlow},
+    descent::{DescentLaw, MassFlow},
     linear::SkewedWake,
 };
 use crate::scalar::Scalar;
@@ -19,7 +19,7 @@ pub struct Stream<S = f64> {
     /// R, m.
     pub radius: f64,
     /// What momentum theory becomes in descent.
-    pub descent: Descent,
+    pub descent: DescentLaw<S>,
 }
 
 /// The loading of the disc in wind axes.

@@ -146,7 +146,7 @@ mod tests {
                 up: 0.8 * flap_sin,
             };
             let momentum = Momentum {
-                descent: Descent::Measured,
+                descent: Descent::Measured.unstretched(),
                 ground: Ground::default(),
             };
             solve(&element, &section, &flow, &momentum).unwrap()

@@ -23,7 +23,7 @@ mod peters_he;
 mod pitt_peters;
 mod uniform;
 
-pub use descent::{Descent, FlowState};
+pub use descent::{Descent, DescentLaw, FlowState, ThrustRadius};
 pub use disc_problem::Disc;
 pub use dynamic::{DiscLoading, Stream};
 pub use element_inflow::ElementInflow;

@@ -1,6 +1,6 @@
 //! Momentum theory as the inflow models use it, with the effects of descent and of the ground.
 
-use super::{Descent, Ground, InflowStates};
+use super::{Descent, DescentLaw, Ground, InflowStates};
 use crate::{
     induced::{Field, Induced},
     scalar::Scalar,
@@ -10,7 +10,7 @@ use crate::{
 #[derive(Debug, Clone, Copy)]
 pub struct Momentum<S = f64> {
     /// What momentum theory becomes in descent.
-    pub descent: Descent,
+    pub descent: DescentLaw<S>,
     /// The rotor near the ground.
     pub ground: Ground<S>,
 }
@@ -51,7 +51,7 @@ impl<S: Scalar> Momentum<S> {
     /// descent only with `Descent::Momentum`. Only the sign of `induced` matters, so that the lift
     /// that induces it may be given instead.
     pub(crate) fn is_plain(&self, climb: S, induced: S) -> bool {
-        match self.descent {
+        match self.descent.model {
             Descent::Momentum => true,
             Descent::Measured | Descent::Johnson => (climb * induced).value() >= 0.0,
         }

@@ -142,7 +142,7 @@ mod tests {
             edgewise,
             climb,
             radius,
-            descent: Descent::Momentum,
+            descent: Descent::Momentum.unstretched(),
         }
     }
 
@@ -227,7 +227,7 @@ mod tests {
             edgewise: still,
             climb: still,
             radius: 2.0,
-            descent: Descent::Measured,
+            descent: Descent::Measured.unstretched(),
         };
         let loading = Loading {
             thrust: still,

@@ -18,6 +18,9 @@
 
 mod johnson;
 mod measured;
+mod thrust_radius;
+
+pub use thrust_radius::ThrustRadius;
 
 use crate::scalar::{C, Scalar};
 
@@ -26,11 +29,22 @@ use crate::scalar::{C, Scalar};
 pub enum Descent {
     /// Momentum theory, in descent too.
     Momentum,
-    /// A curve through the measurements of Castles & Gray 1951, NACA TN 2474.
+    /// A curve through the measurements of Castles & Gray 1951, NACA TN 2474, stretched to where
+    /// the rotor carries its thrust.
     #[default]
     Measured,
     /// Johnson's vortex ring model: 2005, NASA/TP-2005-213477.
     Johnson,
+}
+
+/// The mass flow in descent of a rotor at an operating point.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct DescentLaw<S = f64> {
+    /// The model.
+    pub model: Descent,
+    /// s, by which the rotor stretches the peak and the drop of [`Descent::Measured`]. The other
+    /// models take no notice.
+    pub stretch: S,
 }
 
 /// The air that takes up the momentum of the thrust.
@@ -44,6 +58,35 @@ pub struct MassFlow<S = f64> {
 }
 
 impl Descent {
+    /// The law for a rotor whose thrust acts at this mean radius.
+    ///
+    /// * `climb`: flow down through the disc, any sign, m/s
+    /// * `tip_speed`: >= 0, m/s
+    pub fn of_rotor<S: Scalar>(
+        self,
+        thrust_radius: &ThrustRadius,
+        climb: S,
+        tip_speed: S,
+    ) -> DescentLaw<S> {
+        match self {
+            Self::Momentum | Self::Johnson => self.unstretched(),
+            Self::Measured => DescentLaw {
+                model: self,
+                stretch: thrust_radius.stretch(climb, tip_speed),
+            },
+        }
+    }
+
+    /// The law for s = 1.
+    pub fn unstretched<S: Scalar>(self) -> DescentLaw<S> {
+        DescentLaw {
+            model: self,
+            stretch: S::one(),
+        }
+    }
+}
+
+impl<S: Scalar> DescentLaw<S> {
     /// V', m/s.
     ///
     /// A rotor with thrust downwards is a rotor upside down: only the sign of V_c relative to v
@@ -52,22 +95,22 @@ impl Descent {
     /// * `edgewise`: edgewise flow V_x, >= 0, m/s
     /// * `climb`: flow down through the disc V_c, any sign, m/s
     /// * `induced`: v, positive down, m/s
-    pub fn speed<S: Scalar>(self, edgewise: S, climb: S, induced: S) -> S {
+    pub fn speed(&self, edgewise: S, climb: S, induced: S) -> S {
         let is_descent = (climb * induced).value() < 0.0;
         let momentum = || edgewise.hypot(climb + induced);
-        match self {
-            Self::Momentum => momentum(),
-            Self::Measured if is_descent => {
-                let (gain, _) = measured::gain(climb / induced);
+        match self.model {
+            Descent::Momentum => momentum(),
+            Descent::Measured if is_descent => {
+                let (gain, _) = measured::gain(climb / induced, self.stretch);
                 edgewise.hypot(induced * gain)
             }
-            Self::Johnson if is_descent => johnson::speed(edgewise, -climb.abs(), induced.abs()),
-            Self::Measured | Self::Johnson => momentum(),
+            Descent::Johnson if is_descent => johnson::speed(edgewise, -climb.abs(), induced.abs()),
+            Descent::Measured | Descent::Johnson => momentum(),
         }
     }
 
-    /// V' and its slope, at the flows that [`Descent::speed`] takes.
-    pub fn mass_flow<S: Scalar>(self, edgewise: S, climb: S, induced: S) -> MassFlow<S> {
+    /// V' and its slope, at the flows that [`DescentLaw::speed`] takes.
+    pub fn mass_flow(&self, edgewise: S, climb: S, induced: S) -> MassFlow<S> {
         let speed = self.speed(edgewise, climb, induced);
         if speed.value() == 0.0 {
             // A rotor that induces nothing has the slope of the wake that is about to begin. Where
@@ -80,19 +123,19 @@ impl Descent {
         }
         let is_descent = (climb * induced).value() < 0.0;
         let momentum = || speed + induced * (climb + induced) / speed;
-        let slope = match self {
-            Self::Momentum => momentum(),
-            Self::Measured if is_descent => {
+        let slope = match self.model {
+            Descent::Momentum => momentum(),
+            Descent::Measured if is_descent => {
                 let ratio = climb / induced;
-                let (gain, rise) = measured::gain(ratio);
+                let (gain, rise) = measured::gain(ratio, self.stretch);
                 speed + induced * induced * gain * (gain - ratio * rise) / speed
             }
-            Self::Johnson if is_descent => {
+            Descent::Johnson if is_descent => {
                 let step = C(1e-5) * (induced.abs() + climb.abs() + edgewise);
                 let thrust = |v: S| v * self.speed(edgewise, climb, v);
                 (thrust(induced + step) - thrust(induced - step)) / (C(2.0) * step)
             }
-            Self::Measured | Self::Johnson => momentum(),
+            Descent::Measured | Descent::Johnson => momentum(),
         };
         // In descent momentum theory can give a negative slope. It has no physical meaning: at the
         // least the wake carries no momentum away.

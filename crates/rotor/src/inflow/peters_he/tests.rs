@@ -70,7 +70,7 @@ fn stream(edgewise: f64, climb: f64, radius: f64) -> Stream {
         edgewise,
         climb,
         radius,
-        descent: Descent::Momentum,
+        descent: Descent::Momentum.unstretched(),
     }
 }
 
