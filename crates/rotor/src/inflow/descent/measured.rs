@@ -75,7 +75,7 @@ fn bump<S: Scalar>(x: S) -> (S, S) {
 }
 
 /// 3 t^2 - 2 t^3 and its slope.
-fn smooth_step<S: Scalar>(t: S) -> (S, S) {
+pub(super) fn smooth_step<S: Scalar>(t: S) -> (S, S) {
     (t * t * (C(3.0) - C(2.0) * t), C(6.0) * t * (C(1.0) - t))
 }
 

@@ -24,6 +24,7 @@
 //! For a constant chord and linear twist theta_1 from the axis to the tip that is
 //! 3/4 + (sigma a/4) (1/(48 nu) + theta_1/(80 nu^2)).
 
+use super::measured::smooth_step;
 use crate::{
     geometry::{Elements, Geometry},
     scalar::{C, Scalar},
@@ -117,13 +118,9 @@ impl ThrustRadius {
             stretch = C(TRIANGULAR) / radius.at_least(RADII.0).at_most(RADII.1);
         }
         let fading = (descent / (C(FADING) * tip_speed)).at_most(1.0);
-        C(1.0) + (stretch - 1.0) * smooth_step(fading)
+        let (share, _) = smooth_step(fading);
+        C(1.0) + (stretch - 1.0) * share
     }
-}
-
-/// 3 t^2 - 2 t^3.
-fn smooth_step<S: Scalar>(t: S) -> S {
-    t * t * (C(3.0) - C(2.0) * t)
 }
 
 #[cfg(test)]
