@@ -1,5 +1,5 @@
 //! Directional derivatives and the derivatives of outputs in time, through the C interface. That
-//! they are exact in all models is held by tests/derivatives.rs.
+//! they are exact in all models is held by tests/block/derivatives.rs.
 
 use crate::support::{
     Creation, Fmu, Instance,

@@ -23,7 +23,7 @@ const ALLOWED_GROWTH: u64 = 1024;
 #[test]
 fn a_thousand_instances_in_two_threads_give_the_same_bits_and_leave_no_memory() {
     if child::run_alone(
-        "abi::many::a_thousand_instances_in_two_threads_give_the_same_bits_and_leave_no_memory",
+        "many::a_thousand_instances_in_two_threads_give_the_same_bits_and_leave_no_memory",
     )
     .is_some()
     {

@@ -48,7 +48,7 @@ fn file() -> PathBuf {
 
 #[test]
 fn another_process_goes_on_from_the_bytes_to_the_bit() {
-    let name = "abi::serialized::another_process_goes_on_from_the_bytes_to_the_bit";
+    let name = "serialized::another_process_goes_on_from_the_bytes_to_the_bit";
     if env::var_os("HELICOPTER_ROTOR_CHILD").is_some() {
         let instance = Instance::new();
         let bytes = fs::read(file()).unwrap();

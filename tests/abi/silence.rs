@@ -6,7 +6,7 @@ use std::{ffi::CString, ptr};
 
 #[test]
 fn nothing_is_printed_also_when_errors_find_no_logger() {
-    let name = "abi::silence::nothing_is_printed_also_when_errors_find_no_logger";
+    let name = "silence::nothing_is_printed_also_when_errors_find_no_logger";
     if let Some(printed) = child::run_alone(name) {
         assert_eq!(printed.watched(), ["", ""], "stdout and stderr");
         return;

@@ -1,8 +1,5 @@
 //! The block and its variables, for tests that need no packaged FMU.
 
-// Each test program uses a part of this.
-#![allow(dead_code)]
-
 use helicopter_rotor::block::{
     RotorBlock,
     variables::{BooleanRef, IntegerRef, RealRef, StringRef, boolean, real},

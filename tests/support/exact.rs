@@ -1,8 +1,5 @@
 //! Exact derivatives of the block, and the scales on which they are compared with differences.
 
-// Each test program uses a part of this.
-#![allow(dead_code)]
-
 use helicopter_rotor::block::{
     RotorBlock,
     variables::{Causality, RealRef, STATES, real},

@@ -1,16 +1,20 @@
 //! What the integration tests share: the FMU, loaded as an importer loads it.
 //!
+//! * `block.rs`: the block and its variables, without the C interface
+//! * `exact.rs`: its exact derivatives beside its values
 //! * `c.rs`: the C types and functions of the standard, written apart from the code under test
 //! * `fmu.rs`: the FMU as an importer has it on its disk, loaded
 //! * `instance.rs`: an instance with variables by name, and its log
 //! * `model_exchange.rs`: its functions of Model Exchange
 //! * `child.rs`: a test run alone in a process of its own
 
-// Each test program uses a part of this.
+// Each test uses a part of this.
 #![allow(dead_code, unused_imports)]
 
+pub mod block;
 pub mod c;
 pub mod child;
+pub mod exact;
 pub mod fmu;
 pub mod instance;
 mod model_exchange;

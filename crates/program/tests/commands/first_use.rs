@@ -1,0 +1,95 @@
+//! The program in its first use: its help, and its messages when something is missing.
+
+use crate::support;
+use std::{
+    fs::{self, File},
+    io,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+/// The program in a new target folder, in which there is no Python environment yet. It is a link, as
+/// a copy being written is "busy" to a process that another test starts at that moment.
+fn installed(name: &str) -> PathBuf {
+    let folder = support::scratch().join(name).join("debug");
+    fs::create_dir_all(&folder).unwrap();
+    let program = Path::new(env!("CARGO_BIN_EXE_helicopter-rotor"));
+    let link = folder.join(program.file_name().unwrap());
+    fs::hard_link(program, &link).unwrap();
+    link
+}
+
+/// The shared library in the packaged FMU, as a file.
+fn library() -> PathBuf {
+    let file = support::scratch().join("library.so");
+    let fmu = File::open(support::packaged_fmu()).unwrap();
+    let mut archive = zip::ZipArchive::new(fmu).unwrap();
+    let mut binary = archive
+        .by_name("binaries/linux64/HelicopterRotor.so")
+        .unwrap();
+    io::copy(&mut binary, &mut File::create(&file).unwrap()).unwrap();
+    file
+}
+
+#[test]
+fn without_python_the_fmu_is_made_and_the_message_names_python() {
+    let program = installed("no-python");
+    let mut command = Command::new(&program);
+    command.env("PATH", "").arg("--library").arg(library());
+    let message = support::fail(&mut command);
+    assert!(
+        message.contains("the .fmu is made")
+            && message.contains("python3 (3.10 or later) is missing"),
+        "{message}"
+    );
+    let target = program.ancestors().nth(2).unwrap();
+    let fmu = target.join("fmu/HelicopterRotor.fmu");
+    assert!(fmu.metadata().unwrap().len() > 10_000);
+}
+
+#[test]
+fn help_names_the_commands_and_what_happens_without_one() {
+    let help = support::succeed(support::program().arg("--help"));
+    for part in [
+        "package",
+        "reference",
+        "python",
+        "validate",
+        "Without a command",
+        "target/fmu/HelicopterRotor.fmu",
+    ] {
+        assert!(help.contains(part), "{part} is missing in\n{help}");
+    }
+}
+
+#[test]
+fn without_cargo_the_message_says_what_to_do() {
+    let program = installed("no-cargo");
+    let mut command = Command::new(&program);
+    command.env("PATH", "").env_remove("CARGO").arg("package");
+    let message = support::fail(&mut command);
+    assert!(
+        message.contains("cannot run cargo") && message.contains("--library"),
+        "{message}"
+    );
+}
+
+#[test]
+fn a_library_of_another_fmu_is_refused() {
+    let other = support::scratch().join("other.so");
+    fs::write(&other, "not a library of this FMU").unwrap();
+    let out = support::scratch().join("other.fmu");
+    let mut command = support::program();
+    command
+        .arg("package")
+        .arg("--library")
+        .arg(&other)
+        .arg("--out")
+        .arg(&out);
+    let message = support::fail(&mut command);
+    assert!(!out.exists());
+    assert!(
+        message.contains("other.so was built from another modelDescription.xml"),
+        "{message}"
+    );
+}

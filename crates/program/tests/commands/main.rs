@@ -1,0 +1,13 @@
+//! The program's commands, and the FMU that it makes in an importer.
+//!
+//! One program holds them all, so that they run side by side and share one packaged FMU.
+
+// The standard library's functions are independent of those under test.
+#![allow(clippy::disallowed_methods)]
+
+mod first_use;
+mod importers;
+mod package;
+mod reference;
+mod support;
+mod validation;

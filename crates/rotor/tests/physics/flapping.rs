@@ -1,0 +1,541 @@
+//! Flapping blades against what is known on paper: frequency, damping, coning, cyclic pitch, hub
+//! rates, hub moments. The blade's Lock number is gamma = rho a c R^4/I with a = 2 pi.
+
+use crate::support::{
+    DENSITY, SPEED, STEP, air, flight, hover, hub_loads, ideal_models, ideal_rotor, peters_he,
+    steady,
+};
+use nalgebra::Vector3;
+use rotor::{
+    Models, OperatingPoint, Rotor, State, Workspace,
+    air::STANDARD_GRAVITY,
+    disc::Flap,
+    flapping::{Freedom, Hinge},
+    geometry::{Geometry, Rotation},
+    inflow::{ElementInflow, Inflow, Skew},
+};
+use std::f64::consts::PI;
+
+const CHORD: f64 = 0.05;
+const BLADES: u32 = 4;
+const INERTIA: f64 = 0.1;
+
+/// Untwisted blades without drag and tip loss.
+struct Build {
+    inflow: Inflow,
+    offset: f64,
+    pitch_flap: f64,
+    precone: f64,
+    blades: u32,
+    rotation: Rotation,
+    elements: usize,
+}
+
+impl Default for Build {
+    fn default() -> Self {
+        Self {
+            inflow: Inflow::Linear(Skew::Uniform),
+            offset: 0.0,
+            pitch_flap: 0.0,
+            precone: 0.0,
+            blades: BLADES,
+            rotation: Rotation::CounterClockwise,
+            elements: 100,
+        }
+    }
+}
+
+impl Build {
+    fn rotor(self) -> Rotor {
+        let mut geometry = geometry(self.blades);
+        geometry.rotation = self.rotation;
+        let freedom = Freedom {
+            inertia: INERTIA,
+            pitch_flap: self.pitch_flap,
+            length: 1.0 - self.offset,
+        };
+        let models = Models {
+            hinge: Hinge {
+                offset: self.offset,
+                precone: self.precone,
+                freedom: Some(freedom),
+            },
+            ..ideal_models(self.inflow)
+        };
+        ideal_rotor(geometry, models, self.elements)
+    }
+}
+
+fn geometry(blades: u32) -> Geometry {
+    Geometry::linear(blades, 1.0, 0.01, CHORD, 1.0, 0.0)
+}
+
+/// Blades without pitch in next to no air.
+fn airless(density: f64) -> OperatingPoint {
+    OperatingPoint {
+        air: air(density),
+        ..hover(0.0)
+    }
+}
+
+/// Flight in which motion and gravity have no symmetry.
+fn unsymmetrical() -> OperatingPoint {
+    OperatingPoint {
+        angular_velocity: Vector3::new(1.0, -0.5, 0.3),
+        gravity: Vector3::new(1.0, 2.0, -9.0),
+        ..flight(0.1, Vector3::new(18.0, 4.0, -1.0))
+    }
+}
+
+fn lock_number() -> f64 {
+    DENSITY * 2.0 * PI * CHORD / INERTIA
+}
+
+fn close(found: f64, expected: f64, tolerance: f64, what: &str) {
+    assert!(
+        (found - expected).abs() <= tolerance,
+        "{what}: {found:e}, expected {expected:e}"
+    );
+}
+
+/// Blades 1 and 3 up, 2 and 4 down: this changes neither the thrust nor the inflow.
+fn opposed(amplitude: f64) -> State {
+    let mut state = State::default();
+    for (k, flap) in state.flaps.iter_mut().take(4).enumerate() {
+        flap.angle = if k % 2 == 0 { amplitude } else { -amplitude };
+    }
+    state
+}
+
+/// The states at so many steps of the azimuth, from `state` on.
+fn motion(rotor: &Rotor, point: &OperatingPoint, mut state: State, count: usize) -> Vec<State> {
+    let mut workspace = Workspace::new(rotor);
+    let mut states = vec![state];
+    for _ in 0..count {
+        let next = rotor.step(|_| *point, &state, STEP / SPEED, &mut workspace);
+        state = next.unwrap();
+        states.push(state);
+    }
+    states
+}
+
+/// Angle of blade 1 at each step of the azimuth after the blades were let go at `amplitude`.
+fn free_motion(rotor: &Rotor, point: &OperatingPoint, amplitude: f64, count: usize) -> Vec<f64> {
+    let states = motion(rotor, point, opposed(amplitude), count);
+    states.iter().map(|state| state.flaps[0].angle).collect()
+}
+
+/// Johnson 1980, "Helicopter Theory", eq. 5-145: nu^2 = 1 + 3/2 e/(1 - e) + k/(I Omega^2).
+#[test]
+fn the_frequency_of_a_free_blade_is_that_of_offset_and_spring() {
+    for (offset, spring) in [(0.0, 0.0), (0.1, 0.0), (0.0, 300.0), (0.05, 150.0)] {
+        let rotor = Build {
+            offset,
+            elements: 10,
+            ..Build::default()
+        }
+        .rotor();
+        let point = OperatingPoint {
+            hinge_spring: spring,
+            ..airless(1e-9)
+        };
+        let angles = free_motion(&rotor, &point, 1e-3, 1500);
+        let nu =
+            (1.0_f64 + 1.5 * offset / (1.0 - offset) + spring / (INERTIA * SPEED * SPEED)).sqrt();
+        for (i, angle) in angles.iter().enumerate() {
+            let expected = 1e-3 * (nu * STEP * i as f64).cos();
+            close(
+                *angle,
+                expected,
+                1e-6,
+                &format!("e {offset}, k {spring}, step {i}"),
+            );
+        }
+    }
+}
+
+/// Johnson 1980, section 5-5: beta'' + gamma/8 beta' + beta = 0, a damping ratio of gamma/16.
+#[test]
+fn free_flapping_is_damped_by_a_sixteenth_of_the_lock_number() {
+    let zeta = lock_number() / 16.0;
+    let angles = free_motion(&Build::default().rotor(), &hover(0.0), 1e-3, 720);
+    let damped = (1.0 - zeta * zeta).sqrt();
+    for (i, angle) in angles.iter().enumerate() {
+        let psi = STEP * i as f64;
+        let expected = 1e-3
+            * (-zeta * psi).exp()
+            * ((damped * psi).cos() + zeta / damped * (damped * psi).sin());
+        close(*angle, expected, 2e-6, &format!("step {i}, zeta {zeta}"));
+    }
+}
+
+/// Johnson 1980, section 5-5: a0 = gamma (theta/8 - lambda/6) less S g/(I Omega^2) of the weight. A
+/// spring divides it by nu^2; delta3 takes gamma/8 tan(delta3) a0 from the pitch.
+#[test]
+fn coning_in_hover() {
+    for (spring, pitch_flap, gravity) in [
+        (0.0, 0.0, 0.0),
+        (500.0, 0.0, 0.0),
+        (0.0, 0.5, 0.0),
+        (0.0, 0.0, 20.0 * STANDARD_GRAVITY),
+    ] {
+        let rotor = Build {
+            pitch_flap,
+            ..Build::default()
+        }
+        .rotor();
+        let theta = 0.1;
+        let point = OperatingPoint {
+            hinge_spring: spring,
+            gravity: Vector3::new(0.0, 0.0, -gravity),
+            ..hover(theta)
+        };
+        let (_, loads) = steady(&rotor, &point);
+        let gamma = lock_number();
+        let lambda = loads.induced_velocity / SPEED;
+        let stiffness = 1.0 + spring / (INERTIA * SPEED * SPEED) + gamma / 8.0 * pitch_flap;
+        let weight = 1.5 * gravity / (SPEED * SPEED);
+        let expected = (gamma * (theta / 8.0 - lambda / 6.0) - weight) / stiffness;
+        close(
+            loads.tip_path.coning,
+            expected,
+            0.01 * expected.abs(),
+            &format!("k {spring}, delta3 {pitch_flap}, g {gravity}"),
+        );
+        close(loads.tip_path.longitudinal, 0.0, 1e-9, "a1");
+        close(loads.tip_path.lateral, 0.0, 1e-9, "b1");
+    }
+}
+
+/// Gessow & Myers 1952, ch. 7: without offset and spring the tip path leans by the cyclic pitch, 90
+/// deg later than the pitch: pitch that is lowest on the right leans it forward, pitch that is
+/// lowest at the tail leans it to the right.
+///
+/// This is exact where nothing is induced. The inflow of a thrusting rotor stays along the shaft
+/// here, so that a leaning tip path meets some of it edgewise, which adds half a percent.
+#[test]
+fn cyclic_pitch_in_hover_leans_the_tip_path_by_as_much_90_degrees_later() {
+    let small = 1e-3;
+    for (collective, tolerance) in [(0.0, 2e-6), (0.1, 0.01)] {
+        let point = OperatingPoint {
+            cyclic_longitudinal: small,
+            ..hover(collective)
+        };
+        let (_, forward) = steady(&Build::default().rotor(), &point);
+        let path = forward.tip_path;
+        close(path.longitudinal, -small, tolerance * small, "a1");
+        close(path.lateral, 0.0, tolerance * small, "b1");
+        // The thrust leans with the tip path.
+        let thrust = forward.force.z;
+        close(
+            forward.force.x,
+            small * thrust,
+            0.05 * small * thrust.abs(),
+            "force",
+        );
+        // A hub without spring and offset feels no moment except the torque, which leans as well.
+        let moment = forward.moment.x.hypot(forward.moment.y);
+        assert!(moment <= 1.5 * small * forward.torque + 1e-9, "{moment}");
+
+        let point = OperatingPoint {
+            cyclic_lateral: small,
+            ..hover(collective)
+        };
+        let (_, right) = steady(&Build::default().rotor(), &point);
+        let path = right.tip_path;
+        close(path.lateral, small, tolerance * small, "b1");
+        close(path.longitudinal, 0.0, tolerance * small, "a1");
+        let thrust = right.force.z;
+        close(
+            right.force.y,
+            -small * thrust,
+            0.05 * small * thrust.abs(),
+            "force",
+        );
+    }
+}
+
+/// Johnson 1980, section 5-12 (Amer 1950, NACA TN 2136): on a hub that turns at the rate q the tip
+/// path lags by 16/gamma q/Omega, and leans across by q/Omega.
+#[test]
+fn hub_rates_lag_and_cross_couple() {
+    let gamma = lock_number();
+    let rate = 0.1;
+    let steady_tip_path = |angular_velocity: Vector3<f64>| {
+        let point = OperatingPoint {
+            angular_velocity,
+            ..hover(0.08)
+        };
+        let (_, loads) = steady(&Build::default().rotor(), &point);
+        (
+            loads.tip_path.longitudinal * SPEED / rate,
+            loads.tip_path.lateral * SPEED / rate,
+        )
+    };
+    // About y the nose goes down: the tip path stays back.
+    let (a1, b1) = steady_tip_path(Vector3::new(0.0, rate, 0.0));
+    close(a1, 16.0 / gamma, 0.005 * 16.0 / gamma, "lag in pitch");
+    close(b1, 1.0, 0.02, "cross of pitch");
+    // About x the right side goes down: the tip path stays left.
+    let (a1, b1) = steady_tip_path(Vector3::new(rate, 0.0, 0.0));
+    close(b1, -16.0 / gamma, 0.005 * 16.0 / gamma, "lag in roll");
+    close(a1, 1.0, 0.02, "cross of roll");
+}
+
+/// Without air, a cone that leans by a1 pulls at the hub with N/2 (k + h S nu^2 Omega^2) a1 through
+/// the springs and the offset hinges. Johnson 1980, section 5-13, has h S Omega^2 for small
+/// offsets.
+#[test]
+fn hub_moments_of_a_leaning_tip_path() {
+    for (offset, spring) in [(0.0, 200.0), (0.1, 0.0), (0.1, 200.0)] {
+        let rotor = Build {
+            offset,
+            ..Build::default()
+        }
+        .rotor();
+        let point = OperatingPoint {
+            hinge_spring: spring,
+            ..airless(1e-12)
+        };
+        let lean = 1e-4;
+        let mut state = State::default();
+        for (k, flap) in state.flaps.iter_mut().take(4).enumerate() {
+            let psi = PI / 2.0 * k as f64;
+            *flap = Flap {
+                angle: -lean * psi.cos(),
+                rate: lean * SPEED * psi.sin(),
+            };
+        }
+        let loads = hub_loads(&rotor, &point, &state);
+        let first = 1.5 * INERTIA / (1.0 - offset);
+        let nu_square = 1.0 + 1.5 * offset / (1.0 - offset) + spring / (INERTIA * SPEED * SPEED);
+        let expected = 2.0 * (spring + offset * first * nu_square * SPEED * SPEED) * lean;
+        close(
+            loads.moment.y,
+            -expected,
+            1e-6 * expected,
+            &format!("e {offset}, k {spring}"),
+        );
+        close(loads.moment.x, 0.0, 1e-6 * expected, "roll");
+        close(loads.tip_path.longitudinal, lean, 1e-12, "a1");
+    }
+}
+
+/// Blades hinged at the shaft follow a turning hub by the moment of the air alone. With an offset
+/// the hub must turn their mass, too: without air, a pitch rate q while the blades are flat needs
+/// the gyroscopic moment of what lies at the offset.
+#[test]
+fn flat_blades_on_a_turning_hub_feel_the_gyroscopic_moment_twice_omega_q() {
+    let offset = 0.2;
+    let rotor = Build {
+        offset,
+        ..Build::default()
+    }
+    .rotor();
+    let rate = 1e-3;
+    let point = OperatingPoint {
+        angular_velocity: Vector3::new(0.0, rate, 0.0),
+        ..airless(1e-12)
+    };
+    let loads = hub_loads(&rotor, &point, &State::default());
+    // In each blade -2 Omega w_r acts up on the mass m at h + l/2. The hinge carries what does not
+    // turn the blade: m (h + l/2) - S (I + h S)/I. The squares of the sine add up to N/2.
+    let length = 1.0 - offset;
+    let (mass, first) = (3.0 * INERTIA / length.powi(2), 1.5 * INERTIA / length);
+    let carried = mass * (offset + length / 2.0) - first * (INERTIA + offset * first) / INERTIA;
+    let expected = 2.0 * 2.0 * SPEED * rate * offset * carried;
+    close(
+        loads.moment.x.abs(),
+        expected.abs(),
+        1e-6 * expected.abs(),
+        "roll",
+    );
+    close(loads.moment.y, 0.0, 1e-9 * expected.abs(), "pitch");
+}
+
+#[test]
+fn a_steady_start_in_forward_flight_repeats_itself() {
+    for inflow in [
+        Inflow::Elements(ElementInflow::Annulus),
+        Inflow::Linear(Skew::Drees),
+        Inflow::Elements(ElementInflow::FiniteBlades),
+        Inflow::PittPetersDynamic,
+        peters_he(3, &geometry(BLADES), 10),
+    ] {
+        let rotor = Build {
+            inflow: inflow.clone(),
+            elements: 10,
+            ..Build::default()
+        }
+        .rotor();
+        let point = OperatingPoint {
+            cyclic_longitudinal: 0.04,
+            ..flight(0.1, Vector3::new(25.0, 3.0, 1.0))
+        };
+        let (start, _) = steady(&rotor, &point);
+        let states = motion(&rotor, &point, start, 360);
+        let state = states[360];
+        close(state.azimuth, 2.0 * PI, 1e-12, "one revolution");
+        let mut expected = start;
+        expected.azimuth = state.azimuth;
+        let change = state.largest_change(&expected);
+        assert!(change < 1e-7, "{inflow:?}: {change:e}");
+        // After a quarter of a revolution blade 1 is where blade 2 was.
+        close(
+            states[90].flaps[0].angle,
+            start.flaps[1].angle,
+            1e-8,
+            "next blade",
+        );
+        assert!((start.flaps[0].angle - start.flaps[2].angle).abs() > 1e-3);
+    }
+}
+
+/// Hub loads and rates, with the blades turned together with everything else.
+#[test]
+fn turning_the_whole_problem_and_the_blades_turns_forces_and_moments() {
+    let angle = 0.7_f64;
+    let turned = |v: Vector3<f64>| {
+        let (sin, cos) = angle.sin_cos();
+        Vector3::new(v.x * cos - v.y * sin, v.x * sin + v.y * cos, v.z)
+    };
+    for inflow in [
+        Inflow::Elements(ElementInflow::Annulus),
+        Inflow::Linear(Skew::Drees),
+        Inflow::Elements(ElementInflow::FiniteBlades),
+        Inflow::PittPetersDynamic,
+        peters_he(4, &geometry(BLADES), 100),
+    ] {
+        let rotor = Build {
+            inflow: inflow.clone(),
+            offset: 0.05,
+            pitch_flap: 0.2,
+            precone: 0.03,
+            ..Build::default()
+        }
+        .rotor();
+        let point = OperatingPoint {
+            hinge_spring: 50.0,
+            cyclic_longitudinal: 0.03,
+            cyclic_lateral: -0.02,
+            ..unsymmetrical()
+        };
+        let mut state = opposed(0.02);
+        state.azimuth = 0.3;
+        state.flaps[1].rate = 0.5;
+        state.inflow[0] = 1.0;
+        let cyclic = turned(Vector3::new(
+            point.cyclic_lateral,
+            point.cyclic_longitudinal,
+            0.0,
+        ));
+        let other = OperatingPoint {
+            cyclic_lateral: cyclic.x,
+            cyclic_longitudinal: cyclic.y,
+            airspeed: turned(point.airspeed),
+            angular_velocity: turned(point.angular_velocity),
+            gravity: turned(point.gravity),
+            ..point
+        };
+        let mut other_state = state;
+        other_state.azimuth += angle;
+        let mut workspaces = [Workspace::new(&rotor), Workspace::new(&rotor)];
+        let [first, second] = &mut workspaces;
+        let one = rotor.respond(&point, &state, first).unwrap();
+        let two = rotor.respond(&other, &other_state, second).unwrap();
+        let (a, b) = (one.hub, two.hub);
+        assert!(
+            (turned(a.force) - b.force).norm() < 1e-12 * a.force.norm(),
+            "{inflow:?}"
+        );
+        assert!(
+            (turned(a.moment) - b.moment).norm() < 1e-11 * a.force.norm(),
+            "{inflow:?}"
+        );
+        let (a, b) = (one.rates, two.rates);
+        for (a, b) in a.flaps.iter().zip(b.flaps) {
+            close(b.rate, a.rate, 1e-8, "beta''");
+        }
+        close(b.inflow[0], a.inflow[0], 1e-9 * a.inflow[0].abs(), "inflow");
+    }
+}
+
+#[test]
+fn a_clockwise_rotor_flaps_as_the_mirror_image() {
+    let mirrored = |v: Vector3<f64>| Vector3::new(v.x, -v.y, v.z);
+    let point = unsymmetrical();
+    let other = OperatingPoint {
+        airspeed: mirrored(point.airspeed),
+        angular_velocity: -mirrored(point.angular_velocity),
+        gravity: mirrored(point.gravity),
+        ..point
+    };
+    let build = |rotation| Build {
+        offset: 0.05,
+        rotation,
+        inflow: Inflow::PittPetersDynamic,
+        ..Build::default()
+    };
+    let (state, a) = steady(&build(Rotation::CounterClockwise).rotor(), &point);
+    let (other_state, b) = steady(&build(Rotation::Clockwise).rotor(), &other);
+    assert_eq!(state, other_state);
+    assert_eq!(mirrored(a.force), b.force);
+    assert_eq!(-mirrored(a.moment), b.moment);
+    assert_eq!(a.tip_path, b.tip_path);
+}
+
+/// One or two blades show the same lean as three or more.
+#[test]
+fn few_blades_show_the_same_cone() {
+    let cone = |blades| {
+        let rotor = Build {
+            blades,
+            elements: 20,
+            ..Build::default()
+        }
+        .rotor();
+        let point = OperatingPoint {
+            cyclic_lateral: 0.02,
+            cyclic_longitudinal: 0.01,
+            ..hover(0.08)
+        };
+        steady(&rotor, &point).1.tip_path
+    };
+    for blades in [1, 2, 3, 8] {
+        let path = cone(blades);
+        assert!(path.coning > 0.0);
+        close(path.longitudinal, -0.01, 1e-4, &format!("a1 of {blades}"));
+        close(path.lateral, 0.02, 2e-4, &format!("b1 of {blades}"));
+    }
+}
+
+/// In still air at a pitch of 0.1 rad, from flat blades.
+#[test]
+fn blades_of_a_stopped_rotor_fall_and_swing() {
+    let rotor = Build {
+        elements: 10,
+        ..Build::default()
+    }
+    .rotor();
+    let point = OperatingPoint {
+        speed: 0.0,
+        gravity: Vector3::new(0.0, 0.0, -STANDARD_GRAVITY),
+        ..hover(0.1)
+    };
+    let (mut state, _) = steady(&rotor, &point);
+    let mut workspace = Workspace::new(&rotor);
+    let mut lowest = 0.0_f64;
+    for _ in 0..2000 {
+        let steps = rotor.stable_steps(&point, &state, 0.005);
+        for _ in 0..steps as u32 {
+            let next = rotor.step(|_| point, &state, 0.005 / steps, &mut workspace);
+            state = next.unwrap();
+        }
+        lowest = lowest.min(state.flaps[0].angle);
+    }
+    assert!(lowest < -PI / 2.0, "it swings through: {lowest}");
+    assert!(
+        lowest > -PI - 1e-3,
+        "and no higher than where it began: {lowest}"
+    );
+}

@@ -1,0 +1,30 @@
+//! The C interface as an importer sees it: the shared library in an unpacked FMU.
+
+// The standard library's functions are independent of those under test.
+#![allow(clippy::disallowed_methods)]
+
+#[path = "../support/mod.rs"]
+mod support;
+
+mod arguments;
+mod both_interfaces;
+mod capabilities;
+mod dependencies;
+mod directional;
+mod exports;
+mod extremes;
+mod files;
+mod fmu_state;
+mod get_set;
+mod input_derivatives;
+mod legality;
+mod life_cycle;
+mod logging;
+mod many;
+mod model_exchange;
+mod ownership;
+mod pointers;
+mod random;
+mod resources;
+mod serialized;
+mod silence;
