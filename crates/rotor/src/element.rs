@@ -167,13 +167,16 @@ impl<S: Scalar> Element<'_, S> {
     /// Whether the section is beyond the first peak of its lift, to either side. It is not in still
     /// air.
     pub fn is_stalled(&self, load: &SectionLoad<S>) -> bool {
+        let alpha = load.angle_of_attack.value();
+        if self.section.inner.is_unstalled(alpha) && self.section.outer.is_unstalled(alpha) {
+            return false;
+        }
         let flow = self.similarity(load.speed);
         let limit = |side: fn((S, S)) -> S| {
             self.section
                 .mixed(|airfoil| side(airfoil.stall_angles(flow)))
                 .value()
         };
-        let alpha = load.angle_of_attack.value();
         load.speed.value() > 0.0 && (alpha < limit(|s| s.0) || alpha > limit(|s| s.1))
     }
 }

@@ -70,10 +70,7 @@ fn read(text: &str) -> Result<Airfoil, Problem> {
     let [lift_machs, lift_angles, drag_machs, drag_angles] = header.counts;
     let lift = table(&mut records, Coefficient::Lift, lift_machs, lift_angles)?;
     let drag = table(&mut records, Coefficient::Drag, drag_machs, drag_angles)?;
-    Ok(Airfoil {
-        name: header.name,
-        data: Data::Tables { lift, drag },
-    })
+    Ok(Airfoil::new(header.name, Data::Tables { lift, drag }))
 }
 
 fn count(text: &str) -> Option<usize> {

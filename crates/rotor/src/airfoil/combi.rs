@@ -60,10 +60,7 @@ pub fn parse(text: &str, file: &str) -> Result<Airfoil, AirfoilError> {
         .and_then(chosen)
         .and_then(|matrix| Ok((laws(&matrix)?, matrix.name)));
     match laws {
-        Ok((laws, name)) => Ok(Airfoil {
-            name,
-            data: Data::Laws(laws),
-        }),
+        Ok((laws, name)) => Ok(Airfoil::new(name, Data::Laws(laws))),
         Err((line, column, problem)) => Err(AirfoilError::MalformedField {
             file: file.to_owned(),
             line,

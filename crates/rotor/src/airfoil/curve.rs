@@ -150,6 +150,14 @@ impl Curve {
         C(self.value[near]) + C(self.slope[i]) * (alpha - self.alpha[near])
     }
 
+    /// The lowest coefficient between two angles between -pi and pi, rad.
+    pub fn lowest_between(&self, from: f64, to: f64) -> f64 {
+        let points = self.alpha.iter().zip(&self.value);
+        let inside = points.filter(|(alpha, _)| (from..=to).contains(*alpha));
+        let ends = self.value(from).min(self.value(to));
+        inside.fold(ends, |lowest, (_, value)| lowest.min(*value))
+    }
+
     /// Whether the coefficient differs from 0 at some angle.
     pub fn is_anywhere(&self) -> bool {
         self.value.iter().any(|v| *v != 0.0)

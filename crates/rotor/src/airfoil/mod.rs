@@ -14,6 +14,7 @@ mod laws;
 mod layers;
 mod polar;
 mod records;
+mod summary;
 mod table;
 
 pub use curve::{Coefficient, Curve, CurveError, CurveProblem};
@@ -21,6 +22,7 @@ pub use layers::{Axis, Layers, LayersError, LayersProblem};
 pub use table::{Table, wrapped};
 
 use laws::{Laws, Line};
+use summary::Summary;
 
 use super::{
     compressibility::Compressibility,
@@ -107,6 +109,7 @@ pub struct Similarity<S> {
 pub struct Airfoil {
     name: String,
     data: Data,
+    summary: Summary,
 }
 
 /// The two kinds of section data.
@@ -116,7 +119,35 @@ enum Data {
     Laws(Laws),
 }
 
+/// Lowest and highest number of an axis in the data; none if they do not depend on it.
+fn range(data: &Data, axis: Axis) -> Option<(f64, f64)> {
+    let (lift, drag) = match data {
+        Data::Tables { lift, drag } => (lift.layers(), drag.layers()),
+        Data::Laws(laws) => (laws.layers(), laws.layers()),
+    };
+    let has_range = |layers: &&Layers| match axis {
+        Axis::Reynolds => true,
+        Axis::Mach => layers.resolves_mach(),
+    };
+    let mut ranges = [lift, drag]
+        .into_iter()
+        .filter(has_range)
+        .filter_map(|layers| layers.range(axis));
+    let first = ranges.next()?;
+    Some(ranges.fold(first, |a, b| (a.0.max(b.0), a.1.min(b.1))))
+}
+
 impl Airfoil {
+    /// An airfoil of the data that a format has read.
+    fn new(name: String, data: Data) -> Self {
+        let summary = Summary::of(&data);
+        Self {
+            name,
+            data,
+            summary,
+        }
+    }
+
     /// Reads a file in one of the formats of `formats`: a CombiTable of laws if it begins with
     /// `#1`, polars by Reynolds number if its name ends in `.polar`, else C81.
     ///
@@ -148,20 +179,7 @@ impl Airfoil {
     /// depend on that number. A single Mach number has no range: a compressibility rule takes the
     /// coefficients to others.
     pub fn range(&self, axis: Axis) -> Option<(f64, f64)> {
-        let (lift, drag) = match &self.data {
-            Data::Tables { lift, drag } => (lift.layers(), drag.layers()),
-            Data::Laws(laws) => (laws.layers(), laws.layers()),
-        };
-        let has_range = |layers: &&Layers| match axis {
-            Axis::Reynolds => true,
-            Axis::Mach => layers.resolves_mach(),
-        };
-        let mut ranges = [lift, drag]
-            .into_iter()
-            .filter(has_range)
-            .filter_map(|layers| layers.range(axis));
-        let first = ranges.next()?;
-        Some(ranges.fold(first, |a, b| (a.0.max(b.0), a.1.min(b.1))))
+        range(&self.data, axis)
     }
 
     /// Lift coefficient.
@@ -221,16 +239,19 @@ impl Airfoil {
         flow: Similarity<S>,
     ) -> S {
         let drag = self.table_drag(alpha, flow);
-        let Some((lowest, highest)) = self.range(Axis::Reynolds) else {
+        let Some((lowest, highest)) = self.summary.reynolds else {
             return drag;
         };
         let reynolds = flow.reynolds.at_least(MIN_CORRECTED_REYNOLDS);
-        let is_off = model.drag_reynolds_exponent == 0.0 || !self.lifts();
+        let is_off = model.drag_reynolds_exponent == 0.0 || !self.summary.lifts;
         if is_off || !(reynolds.is_below(lowest) || reynolds.is_above(highest)) {
             return drag;
         }
         let ratio = C(reynolds.value().clamp(lowest, highest)) / reynolds;
         let factor = (C(model.drag_reynolds_exponent) * ratio.ln()).exp();
+        if drag.value() < self.summary.drag_below_stall {
+            return drag + drag * (factor - 1.0);
+        }
         let (negative, positive) = self.stall_angles(flow);
         let stall = if wrapped(alpha).is_below(0.0) {
             negative
@@ -251,14 +272,6 @@ impl Airfoil {
         match &self.data {
             Data::Tables { drag, .. } => drag.value(alpha, flow),
             Data::Laws(laws) => laws.drag(alpha, flow),
-        }
-    }
-
-    /// Whether the section has lift at any angle.
-    fn lifts(&self) -> bool {
-        match &self.data {
-            Data::Tables { lift, .. } => lift.is_anywhere(),
-            Data::Laws(_) => true,
         }
     }
 
@@ -289,6 +302,13 @@ impl Airfoil {
             return (zero, zero);
         }
         (slope, C(-0.5) * (high + low) / slope)
+    }
+
+    /// Whether the section is clear of stall at an angle of attack (rad, between -pi and pi),
+    /// whatever the Reynolds and Mach number. `stall_angles` decides where it is not.
+    pub fn is_unstalled(&self, alpha: f64) -> bool {
+        let (negative, positive) = self.summary.unstalled;
+        alpha >= negative && alpha <= positive
     }
 
     /// Angles of attack (negative, positive; rad) at which the lift reaches its first peak; -pi

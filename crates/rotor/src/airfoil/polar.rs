@@ -67,13 +67,11 @@ fn read(text: &str) -> Result<Airfoil, Problem> {
     let table = |coefficient: Coefficient, column: fn(&Row) -> f64| {
         Table::try_new(layers.clone(), |i| blocks[i].curve(coefficient, column))
     };
-    Ok(Airfoil {
-        data: Data::Tables {
-            lift: table(Coefficient::Lift, |row| row.lift)?,
-            drag: table(Coefficient::Drag, |row| row.drag)?,
-        },
-        name,
-    })
+    let data = Data::Tables {
+        lift: table(Coefficient::Lift, |row| row.lift)?,
+        drag: table(Coefficient::Drag, |row| row.drag)?,
+    };
+    Ok(Airfoil::new(name, data))
 }
 
 /// The name and the blocks, one or more, as they stand in the file.

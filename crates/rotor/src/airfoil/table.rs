@@ -34,6 +34,11 @@ impl Table {
         &self.layers
     }
 
+    /// The curves of the layers.
+    pub fn curves(&self) -> impl Iterator<Item = &Curve> {
+        self.curve.iter()
+    }
+
     /// Whether the coefficient differs from 0 at some angle.
     pub fn is_anywhere(&self) -> bool {
         self.curve.iter().any(Curve::is_anywhere)
