@@ -26,6 +26,7 @@ impl RotorBlock {
         let advanced = Integration {
             rotor: &rotor,
             workspace: &mut self.workspace,
+            known_rates: &mut self.known_rates,
             azimuth_step,
         }
         .advance(inputs, &memory, duration);
@@ -59,6 +60,7 @@ impl RotorBlock {
         let advanced = Integration {
             rotor: &rotor,
             workspace: &mut self.workspace,
+            known_rates: &mut self.known_rates,
             azimuth_step,
         }
         .advance(Inputs::Moving(point_at), &self.memory, duration);

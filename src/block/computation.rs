@@ -77,6 +77,8 @@ impl RotorBlock {
         write_response(&mut reals, &rotor, condition, state, &response);
         check_finite(&self.values, &reals)?;
         self.values.reals = reals;
+        self.known_rates
+            .keep_published(&rotor, &condition.point, state, &response.rates);
         let flow_state = match response.hub.flow_state {
             rotor::inflow::FlowState::Normal => FlowState::Normal,
             rotor::inflow::FlowState::VortexRing => FlowState::VortexRing,

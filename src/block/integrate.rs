@@ -7,7 +7,9 @@
 //! inputs give the same result, up to the rounding of times, for every communication step. Inputs
 //! that move within a communication step begin a grid of their own at its beginning.
 
+use super::known_rates::KnownRates;
 use rotor::{Drive, OperatingPoint, Rotor, SolveError, State, Workspace};
+use std::sync::Arc;
 
 /// The states, and the position on the grid.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -66,8 +68,9 @@ impl Memory {
 
 /// An integration of a rotor.
 pub struct Integration<'a> {
-    pub rotor: &'a Rotor,
+    pub rotor: &'a Arc<Rotor>,
     pub workspace: &'a mut Workspace,
+    pub known_rates: &'a mut KnownRates,
     /// Maximum step of azimuth, rad.
     pub azimuth_step: f64,
 }
@@ -183,10 +186,26 @@ impl Integration<'_> {
         let mut state = *start;
         for i in 0..count as u32 {
             let from = begin + f64::from(i) * step;
+            let first = match i {
+                0 => self.first_rates(&inputs.at(from), &state)?,
+                _ => self.rotor.rates(&inputs.at(from), &state, self.workspace)?,
+            };
             let point_at = |offset| inputs.at(from + offset);
-            state = self.rotor.step(point_at, &state, step, self.workspace)?;
+            state = self
+                .rotor
+                .step_from(&first, point_at, &state, step, self.workspace)?;
         }
         Ok(Some(state))
+    }
+
+    /// The rates at the beginning of a stretch.
+    fn first_rates(&mut self, point: &OperatingPoint, state: &State) -> Result<State, SolveError> {
+        if let Some(rates) = self.known_rates.find(self.rotor, point, state) {
+            return Ok(rates);
+        }
+        let rates = self.rotor.rates(point, state, self.workspace)?;
+        self.known_rates.keep_grid(self.rotor, point, state, &rates);
+        Ok(rates)
     }
 }
 

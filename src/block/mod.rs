@@ -6,7 +6,7 @@
 //! * `setup`, `airfoils`, `flight_condition`, `ramp`: from values to a rotor and its operating
 //!   point
 //! * `computation`, `outputs`: the rotor's response, written to the outputs
-//! * `co_simulation`, `integrate`: steps that the block integrates
+//! * `co_simulation`, `integrate`, `known_rates`: steps that the block integrates
 //! * `model_exchange`, `state_vector`: states and derivatives for an importer that integrates
 //! * `derivative`: directional derivatives
 //! * `snapshot`: the block's state, saved and restored
@@ -18,6 +18,7 @@ mod computation;
 mod derivative;
 mod flight_condition;
 mod integrate;
+mod known_rates;
 mod location;
 mod model_exchange;
 mod outputs;
@@ -40,6 +41,7 @@ pub use snapshot::{Contradiction, Snapshot};
 pub use values::{Stage, ValueError, Values};
 
 use integrate::Memory;
+use known_rates::KnownRates;
 use num_dual::Dual64;
 use outside_data::OutsideDataNotice;
 use ramp::Ramp;
@@ -91,6 +93,7 @@ pub struct RotorBlock {
     /// None until the rotor is needed, and after a change of a parameter that defines it.
     rotor: Option<Arc<Rotor>>,
     workspace: Workspace,
+    known_rates: KnownRates,
     /// For directional derivatives; empty until the first of them.
     dual_workspace: Workspace<Dual64>,
     /// The states of the rotor, and the grid point from which they were integrated. `values` holds
@@ -117,6 +120,7 @@ impl RotorBlock {
             resources,
             rotor: None,
             workspace: Workspace::default(),
+            known_rates: KnownRates::default(),
             dual_workspace: Workspace::default(),
             memory: Memory::default(),
             ramp: Ramp::default(),

@@ -8,6 +8,7 @@
 #[path = "../support/mod.rs"]
 mod support;
 
+mod all_combinations;
 mod autogiro;
 mod axial_flow;
 mod blades;
@@ -22,4 +23,3 @@ mod model_effects;
 mod names;
 mod presets;
 mod slopes_by_reynolds;
-mod sweep;

@@ -21,12 +21,24 @@ impl Rotor {
         workspace: &mut Workspace<S>,
     ) -> Result<State<S>, SolveError> {
         let first = self.rates(&point_at(S::zero()), state, workspace)?;
-        let at_third = state.plus(duration / 3.0, &first);
+        self.step_from(&first, point_at, state, duration, workspace)
+    }
+
+    /// The same from the rates at the beginning of the step, `first`, where they are known.
+    pub fn step_from<S: Scalar>(
+        &self,
+        first: &State<S>,
+        mut point_at: impl FnMut(S) -> OperatingPoint<S>,
+        state: &State<S>,
+        duration: S,
+        workspace: &mut Workspace<S>,
+    ) -> Result<State<S>, SolveError> {
+        let at_third = state.plus(duration / 3.0, first);
         let second = self.rates(&point_at(duration / 3.0), &at_third, workspace)?;
         let at_two_thirds = state.plus(duration * 2.0 / 3.0, &second);
         let third = self.rates(&point_at(duration * 2.0 / 3.0), &at_two_thirds, workspace)?;
         Ok(state
-            .plus(duration * 0.25, &first)
+            .plus(duration * 0.25, first)
             .plus(duration * 0.75, &third))
     }
 
