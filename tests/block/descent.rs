@@ -287,7 +287,7 @@ fn thrust_does_not_chatter_in_the_vortex_ring() {
     for (inflow, change, max_turns) in [
         ("annulus", 0.005, 5),
         ("pittPetersDynamic", 0.005, 13),
-        ("petersHe", 0.055, 20),
+        ("petersHe", 0.045, 22),
     ] {
         let mut block = block(inflow, "measured");
         set_integer(&mut block, integer::NUMERICS__ELEMENTS, 12);

@@ -22,4 +22,5 @@ mod frames;
 mod model_effects;
 mod names;
 mod presets;
+mod propellers;
 mod slopes_by_reynolds;

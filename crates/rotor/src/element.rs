@@ -2,6 +2,7 @@
 
 use super::{
     airfoil::{Airfoil, SectionModel, Similarity, wrapped},
+    disc::SectionFlow,
     scalar::{C, Scalar},
     tip_loss::{Span, TipLoss},
 };
@@ -45,15 +46,6 @@ pub struct Section<'a> {
     pub outer: &'a Airfoil,
     /// Weight of the outer airfoil, 0 to 1.
     pub outer_share: f64,
-}
-
-/// Where Prandtl's tip loss F acts.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LossIn {
-    /// In the momentum of the annulus; the section's lift is whole.
-    Momentum,
-    /// In the section's lift, for inflow models without a tip.
-    Lift,
 }
 
 /// The loads of one blade's section per unit of radius, N/m, and the flow at it.
@@ -132,11 +124,54 @@ impl<S: Scalar> Element<'_, S> {
         self.tip_loss.factor(&span, sin_inflow)
     }
 
+    /// Axial induced velocity at the blade, m/s, for an inflow model that gives `mean`, the mean
+    /// around the annulus. `section` is the flow without induced velocity.
+    ///
+    /// Prandtl's F is the ratio of the two (Prandtl 1919, appendix to Betz; Glauert 1935, div. L,
+    /// ch. VII.4): v = mean/F, so that no lift is lost where nothing is induced. The mean flow
+    /// carries the vortex sheets of the wake away, and its angle decides F.
+    ///
+    /// Towards the tip mean/F grows without bound. In a balance of the annulus the momentum would
+    /// fall with the lift; here the mean is given. So the addition a = mean/F - mean goes over
+    /// smoothly to d = cl W/(2 pi), which takes away all the lift cl that the mean flow leaves (for
+    /// a lift slope of 2 pi): a d/sqrt(a^2 + d^2). This limit is our assumption.
+    pub fn induced_at_blade(&self, section: &SectionFlow<S>, mean: S) -> S {
+        let through = section.through + section.flap_cos * mean;
+        let speed = section.in_plane.hypot(through);
+        if speed.value() == 0.0 {
+            return mean;
+        }
+        let factor = self.tip_loss_factor(through / speed);
+        if factor.value() == 1.0 {
+            return mean;
+        }
+        let is_backward = section.in_plane.value() < 0.0;
+        let side = if mean.is_below(0.0) != is_backward {
+            -1.0
+        } else {
+            1.0
+        };
+        let alpha = self.pitch + section.pitch - through.atan2(section.in_plane);
+        let lift = C(side) * self.lift_coefficient(alpha, speed);
+        let limit = lift.at_least(0.0) * speed / (2.0 * PI);
+        let added = mean.abs() / factor - mean.abs();
+        let size = added.hypot(limit);
+        if size.value() == 0.0 {
+            return mean;
+        }
+        let added = added * (limit / size);
+        if mean.is_below(0.0) {
+            mean - added
+        } else {
+            mean + added
+        }
+    }
+
     /// Loads of the section at a pitch (rad) in a flow with the components `in_plane` against the
     /// motion of the blade and `through` down through the disc (m/s): thesis eqs. (74) to (76) and
     /// (83), (84) without small angles. The flow along the blade has no effect on a section
     /// (independence principle), and here none on its drag either.
-    pub fn load(&self, pitch: S, in_plane: S, through: S, loss: LossIn) -> SectionLoad<S> {
+    pub fn load(&self, pitch: S, in_plane: S, through: S) -> SectionLoad<S> {
         let speed = in_plane.hypot(through);
         if speed.value() == 0.0 {
             return SectionLoad {
@@ -147,11 +182,7 @@ impl<S: Scalar> Element<'_, S> {
         }
         let (sin, cos) = (through / speed, in_plane / speed);
         let alpha = wrapped(pitch - through.atan2(in_plane));
-        let lift = self.lift_coefficient(alpha, speed)
-            * match loss {
-                LossIn::Momentum => S::one(),
-                LossIn::Lift => self.tip_loss_factor(sin),
-            };
+        let lift = self.lift_coefficient(alpha, speed);
         let drag = self.drag_coefficient(alpha, speed);
         let pressure = C(0.5) * self.density * speed * speed * self.chord;
         SectionLoad {

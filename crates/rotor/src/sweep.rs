@@ -3,40 +3,50 @@
 use super::{
     blade_loads::ElementLoads,
     disc::{AZIMUTHS, Azimuth, BladePosition, DiscFlow, SectionFlow},
-    element::{Element, LossIn, SectionLoad},
+    element::{Element, SectionLoad},
     induced::Induced,
     scalar::Scalar,
 };
 use nalgebra::Vector3;
 
-/// The flow at one blade's section, and its loads in an induced velocity.
+/// Where an inflow model gives its induced velocity.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum InducedAt {
+    /// At the blade, with the tip loss already in it.
+    Blade,
+    /// As the mean around the annulus; Prandtl's F raises it at the blade.
+    Annulus,
+}
+
+/// The flow at one blade's section, the axial induced velocity at the blade (m/s), and the loads.
 fn section_load<S: Scalar>(
     element: &Element<S>,
     flow: &DiscFlow<S>,
-    loss: LossIn,
+    at: InducedAt,
     position: &BladePosition<S>,
     induced: Induced<S>,
-) -> (SectionFlow<S>, SectionLoad<S>) {
+) -> (SectionFlow<S>, S, SectionLoad<S>) {
     let section = flow.at_section(element.radius, position);
-    let load = element.load(
-        element.pitch + section.pitch,
-        section.in_plane - induced.swirl,
-        section.through + section.flap_cos * induced.axial,
-        loss,
-    );
-    (section, load)
+    let pitch = element.pitch + section.pitch;
+    let in_plane = section.in_plane - induced.swirl;
+    let axial = match at {
+        InducedAt::Blade => induced.axial,
+        InducedAt::Annulus => element.induced_at_blade(&section, induced.axial),
+    };
+    let load = element.load(pitch, in_plane, section.through + section.flap_cos * axial);
+    (section, axial, load)
 }
 
 /// Thrust of all blades' sections per unit of radius, N/m, averaged over the blade positions.
 pub fn mean_thrust<S: Scalar>(
     element: &Element<S>,
     flow: &DiscFlow<S>,
-    loss: LossIn,
+    at: InducedAt,
     positions: &[BladePosition<S>],
     induced: impl Fn(&BladePosition<S>) -> Induced<S>,
 ) -> S {
     let normal = |position: &BladePosition<S>| {
-        let (section, load) = section_load(element, flow, loss, position, induced(position));
+        let (section, _, load) = section_load(element, flow, at, position, induced(position));
         load.normal * section.flap_cos
     };
     positions.iter().map(normal).sum::<S>() / positions.len() as f64 * element.blades
@@ -90,13 +100,14 @@ impl<'a, S: Scalar> Sweep<'a, S> {
     /// Computes the loads in the velocity that `induced` gives for each position.
     pub fn load_in<E>(
         &mut self,
-        loss: LossIn,
+        at: InducedAt,
         induced: impl Fn(usize, &BladePosition<S>) -> Result<Induced<S>, E>,
     ) -> Result<(), E> {
         for (i, position) in self.positions.iter().enumerate() {
             let induced = induced(i, position)?;
-            let (section, load) = section_load(self.element, self.flow, loss, position, induced);
-            self.add(i, &section, &load, induced.axial, position.azimuth);
+            let (section, axial, load) =
+                section_load(self.element, self.flow, at, position, induced);
+            self.add(i, &section, &load, axial, position.azimuth);
         }
         Ok(())
     }

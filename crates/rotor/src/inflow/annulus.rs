@@ -65,11 +65,11 @@
 use super::{Disc, Momentum};
 use crate::{
     disc::{BladePosition, DiscFlow},
-    element::{Element, LossIn},
+    element::Element,
     induced::Induced,
     root::{End, RootError, bracketed},
     scalar::{C, Scalar},
-    sweep::Sweep,
+    sweep::{InducedAt, Sweep},
 };
 use core::f64::consts::FRAC_PI_2;
 
@@ -189,7 +189,7 @@ pub(super) fn load<S: Scalar>(
     sweep: &mut Sweep<S>,
 ) -> Result<S, RootError> {
     let inflow = solve(element, disc.flow, disc.positions, &disc.momentum)?;
-    sweep.load_in(LossIn::Momentum, |_, _| Ok(inflow.induced))?;
+    sweep.load_in(InducedAt::Blade, |_, _| Ok(inflow.induced))?;
     Ok(inflow.mean_axial)
 }
 

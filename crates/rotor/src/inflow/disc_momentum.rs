@@ -3,8 +3,11 @@
 
 use super::{Disc, linear::Coefficients, linear::Skew, uniform};
 use crate::{
-    disc::BladePosition, element::LossIn, error::SolveError, induced::Field, scalar::Scalar,
-    sweep::mean_thrust,
+    disc::BladePosition,
+    error::SolveError,
+    induced::Field,
+    scalar::Scalar,
+    sweep::{InducedAt, mean_thrust},
 };
 use core::f64::consts::PI;
 
@@ -39,7 +42,8 @@ impl<S: Scalar> Disc<'_, S> {
                 let induced = |position: &BladePosition<S>| {
                     field.at(element.radius_ratio(), position.azimuth)
                 };
-                let per_length = mean_thrust(&element, flow, LossIn::Lift, self.positions, induced);
+                let per_length =
+                    mean_thrust(&element, flow, InducedAt::Annulus, self.positions, induced);
                 thrust += per_length * blade.width();
             }
             thrust / density_area

@@ -28,11 +28,11 @@
 use super::{Disc, Momentum, annulus::AnnulusInflow, uniform};
 use crate::{
     disc::{DiscFlow, SectionFlow},
-    element::{Element, LossIn},
+    element::Element,
     induced::Induced,
     root::RootError,
     scalar::Scalar,
-    sweep::Sweep,
+    sweep::{InducedAt, Sweep},
 };
 use core::{cell::Cell, f64::consts::PI};
 
@@ -43,7 +43,7 @@ pub(super) fn load<S: Scalar>(
     sweep: &mut Sweep<S>,
 ) -> Result<S, RootError> {
     let mean = Cell::new(S::zero());
-    sweep.load_in(LossIn::Momentum, |_, position| {
+    sweep.load_in(InducedAt::Blade, |_, position| {
         let section = disc.flow.at_section(element.radius, position);
         let inflow = solve(element, &section, disc.flow, &disc.momentum)?;
         mean.set(mean.get() + inflow.mean_axial / disc.positions.len() as f64);

@@ -34,11 +34,11 @@ pub use peters_he::{MAX_ORDER, Wake};
 
 use super::{
     disc::{AZIMUTHS, WindAxes},
-    element::{Element, LossIn},
+    element::Element,
     error::SolveError,
     induced::{Field, Induced},
     scalar::Scalar,
-    sweep::Sweep,
+    sweep::{InducedAt, Sweep},
 };
 use peters_he::Harmonics;
 
@@ -246,7 +246,7 @@ impl<S: Scalar> Induction<'_, S> {
                 })
             }
             Self::Field(field) => {
-                sweep.load_in(LossIn::Lift, |_, position| {
+                sweep.load_in(InducedAt::Annulus, |_, position| {
                     Ok(field.at(element.radius_ratio(), position.azimuth))
                 })?;
                 Ok(field.mean)
@@ -256,7 +256,7 @@ impl<S: Scalar> Induction<'_, S> {
                 states,
                 harmonics,
             } => {
-                sweep.load_in(LossIn::Lift, |k, _| {
+                sweep.load_in(InducedAt::Annulus, |k, _| {
                     Ok(Induced::axial(wake.velocity(states, i, &harmonics[k])))
                 })?;
                 Ok(wake.mean_at(states, i))
