@@ -291,3 +291,36 @@ fn every_inflow_model_feels_the_ground() {
         assert!((1.0..1.01).contains(&fast), "{inflow}: {fast}");
     }
 }
+
+/// A rotor near the ground that is tilted: half of the gain is gone before 45 deg, and none is left
+/// when the shaft lies, nor when the rotor is inverted and blows its wake upwards.
+#[test]
+fn only_a_wake_that_blows_at_the_ground_feels_it() {
+    for inflow in [
+        "annulus",
+        "uniform",
+        "finiteBlades",
+        "pittPetersDynamic",
+        "petersHe",
+    ] {
+        let gain = |degrees: f64| {
+            let [near, far] = [0.8, 1000.0].map(|height| {
+                let model = (integer::MODELS__INFLOW, inflow);
+                let ground = (integer::MODELS__GROUND_EFFECT, "cheesemanBennett");
+                let mut rotor = block(&[model, ground], &[]);
+                set(&mut rotor, real::TILT, degrees.to_radians());
+                set(&mut rotor, real::HEIGHT_ABOVE_GROUND, height);
+                rotor.update().unwrap();
+                get(&rotor, real::THRUST)
+            });
+            near / far - 1.0
+        };
+        let upright = gain(0.0);
+        assert!((0.02..0.10).contains(&upright), "{inflow}: {upright}");
+        let tilted = gain(45.0) / upright;
+        assert!((0.2..0.6).contains(&tilted), "{inflow}: {tilted}");
+        for degrees in [90.0, 120.0, 180.0] {
+            assert!(gain(degrees).abs() < 1e-12, "{inflow} at {degrees} deg");
+        }
+    }
+}

@@ -176,6 +176,7 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
                 ground: Ground {
                     effect: models.ground_effect,
                     height_ratio: self.point.height / rotor.geometry().radius,
+                    upright: self.point.upright(),
                 },
             },
         }

@@ -26,7 +26,7 @@ pub struct OperatingPoint<S = f64> {
     pub airspeed: Vector3<S>,
     /// Angular velocity of the hub, rad/s.
     pub angular_velocity: Vector3<S>,
-    /// Acceleration of gravity, m/s2; it acts on blades that flap.
+    /// Acceleration of gravity, m/s2; it acts on blades that flap, and tells where the ground is.
     pub gravity: Vector3<S>,
     /// Stiffness of the flapping hinges, N.m/rad.
     pub hinge_spring: S,
@@ -84,6 +84,17 @@ impl<S: Scalar> OperatingPoint<S> {
             Drive::Speed => false,
             Drive::Torque { .. } => true,
         }
+    }
+
+    /// Cosine of the angle between the shaft and the vertical, which gravity gives; 1 without
+    /// gravity. Negative for an inverted rotor.
+    pub fn upright(&self) -> S {
+        let down = &self.gravity;
+        let size = down.x.hypot(down.y).hypot(down.z);
+        if size.value() == 0.0 {
+            return S::one();
+        }
+        -down.z / size
     }
 
     /// The operating point at the rotor speed that belongs to a state.

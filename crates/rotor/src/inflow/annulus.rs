@@ -379,6 +379,7 @@ pub(super) mod tests {
             let ground = Ground {
                 effect: GroundEffect::None,
                 height_ratio: S::one(),
+                upright: S::one(),
             };
             let momentum = Momentum {
                 descent: Descent::Measured.unstretched(),

@@ -10,6 +10,10 @@
 //! * Hayden 1976, 32nd AHS Forum: P/P_far = 1/(0.9926 + 0.0379 (2 R/z)^2) at the same thrust, from
 //!   flight tests in hover. Ours: it fades with forward speed as Cheeseman & Bennett's does.
 //!
+//! Ours: only a wake that meets the ground is held back. z is the distance along the shaft to the
+//! ground, the height over the cosine of the shaft's angle from the vertical; a wake that blows
+//! along the ground or away from it feels nothing.
+//!
 //! Ours: heights below R/2 count as R/2. Neither model was tried there, and Cheeseman & Bennett's
 //! would become infinite. From z = 2 R to 3 R both fade out.
 
@@ -28,12 +32,14 @@ pub enum GroundEffect {
 }
 
 /// The rotor near the ground.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Ground<S = f64> {
     /// The model.
     pub effect: GroundEffect,
     /// Height of the hub above the ground over the rotor radius, z/R, >= 0.
     pub height_ratio: S,
+    /// Cosine of the angle between the shaft and the vertical, negative for an inverted rotor.
+    pub upright: S,
 }
 
 /// z/R below which the effect stays the same.
@@ -41,6 +47,17 @@ const MIN_HEIGHT: f64 = 0.5;
 
 /// z/R at which the effect begins to fade out with height, and at which it is gone.
 const FADING: (f64, f64) = (2.0, 3.0);
+
+impl<S: Scalar> Default for Ground<S> {
+    /// No ground.
+    fn default() -> Self {
+        Self {
+            effect: GroundEffect::None,
+            height_ratio: S::zero(),
+            upright: S::one(),
+        }
+    }
+}
 
 impl<S: Scalar> Ground<S> {
     /// Whether the ground has no effect.
@@ -61,7 +78,12 @@ impl<S: Scalar> Ground<S> {
         if self.is_far() {
             return S::one();
         }
-        let height = self.height_ratio.at_least(MIN_HEIGHT);
+        let upwards = if induced.is_below(0.0) { -1.0 } else { 1.0 };
+        let towards_ground = self.upright * upwards;
+        if towards_ground.value() <= self.height_ratio.value() / FADING.1 {
+            return S::one();
+        }
+        let height = (self.height_ratio / towards_ground).at_least(MIN_HEIGHT);
         let t = ((height - FADING.0) / (FADING.1 - FADING.0))
             .at_least(0.0)
             .at_most(1.0);
@@ -95,6 +117,7 @@ mod tests {
         Ground {
             effect,
             height_ratio,
+            upright: 1.0,
         }
     }
 
@@ -108,6 +131,31 @@ mod tests {
         assert!((k.powf(-2.0 / 3.0) - 32.0 / 31.0).abs() < 1e-12);
         let k = at(GroundEffect::Hayden, 1.0).factor(0.0, 5.0);
         assert!((k - 1.0 / 1.1442).abs() < 1e-12);
+    }
+
+    /// By hand at 60 deg and z = R/2: the wake travels R to the ground.
+    #[test]
+    fn only_a_wake_that_meets_the_ground_is_held_back() {
+        for effect in [GroundEffect::CheesemanBennett, GroundEffect::Hayden] {
+            let factor = |upright: f64, height: f64, induced: f64| {
+                let ground = Ground {
+                    upright,
+                    ..at(effect, height)
+                };
+                ground.factor(0.0, induced)
+            };
+            assert_eq!(factor(0.5, 0.5, 5.0), factor(1.0, 1.0, 5.0));
+            assert_eq!(factor(-0.5, 0.5, -5.0), factor(1.0, 1.0, 5.0), "inverted");
+            for (upright, induced) in [(0.0, 5.0), (0.0, -5.0), (-1.0, 5.0), (1.0, -5.0)] {
+                assert_eq!(factor(upright, 0.6, induced), 1.0, "{upright} {induced}");
+            }
+            let mut previous = factor(1.0, 0.6, 5.0);
+            for degrees in 1..=180 {
+                let next = factor(f64::from(degrees).to_radians().cos(), 0.6, 5.0);
+                assert!(next >= previous && next - previous < 0.02, "{degrees}");
+                previous = next;
+            }
+        }
     }
 
     #[test]
