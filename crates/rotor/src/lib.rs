@@ -38,8 +38,9 @@
 //!
 //! * numbers: `scalar`, `root`, `newton`, `error`, `text_file`
 //! * air and sections: `air`, `compressibility`, `airfoil`
-//! * the blade: `geometry`, `tip_loss`, `element`, `blade_loads`, `blade`
-//! * the disc: `disc`, `induced`, `sweep`
+//! * the blade: `geometry`, `tip_loss`
+//! * the disc: `disc`, `induced`
+//! * the elements: `element`, `blade_loads`, `blade`, `sweep`
 //! * inflow: `inflow`
 //! * the rotor: `state`, `operating_point`, `flapping`, `models`, `rotor`, `workspace`,
 //!   `data_range`

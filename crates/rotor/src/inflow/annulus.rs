@@ -55,16 +55,31 @@
 //!          - s mean((W_psi/U)^2 cl_psi cos(phi_psi - phi)),
 //! ```
 //!
-//! which is the equation above times cos(phi - phi0) where all azimuths are alike. The lift is
+//! with W_psi the flow at each blade position, which is the equation above times cos(phi - phi0) where all azimuths are alike. The lift is
 //! projected on the direction of the induced velocity, and so is the momentum. Where blades are
 //! computed one by one they take the place of the azimuths, and the balance holds at each instant.
+//!
+//! The wake of a disc in edgewise flow is skewed, and induces more at the rear than at the front:
+//! the induced velocity varies around the annulus like Pitt & Peters' (1981, Vertica 5, p. 21),
+//!
+//! ```text
+//! v_psi = v (1 + 15 pi/32 tan(chi/2) (r/R) cos psi),   chi = atan(V_x/|V + v|).
+//! ```
+//!
+//! It is part of the lift in R, so that the annulus' mean and its momentum keep their balance. As in
+//! AeroDyn (Moriarty & Hansen 2005, NREL/TP-500-36881, ch. 2.4) each annulus has its own chi; in
+//! axial flow nothing changes.
+//!
 //! At the far end of the bracket the mean flow W vanishes. If strong edgewise flow along a slow
 //! disc leaves the sign of R unchanged even there, that end is taken: the rotor brings its own air
 //! to rest.
 
-use super::{Disc, Momentum};
+use super::{
+    Disc, Momentum,
+    linear::{Coefficients, Skew},
+};
 use crate::{
-    disc::{BladePosition, DiscFlow},
+    disc::{Azimuth, BladePosition, DiscFlow},
     element::Element,
     induced::Induced,
     root::{End, RootError, bracketed},
@@ -90,8 +105,10 @@ struct Undisturbed<S> {
 /// The induced velocity in an annulus, m/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct AnnulusInflow<S = f64> {
-    /// At the blades.
+    /// At the blades, averaged over the azimuth.
     pub induced: Induced<S>,
+    /// Its growth towards psi = 0 and 90 deg at this radius, as a part of the average.
+    pub skew: Coefficients<S>,
     /// Mean of the axial component around the annulus.
     pub mean_axial: S,
 }
@@ -101,8 +118,16 @@ impl<S: Scalar> AnnulusInflow<S> {
     pub fn zero() -> Self {
         Self {
             induced: Induced::axial(S::zero()),
+            skew: Coefficients::zero(),
             mean_axial: S::zero(),
         }
+    }
+
+    /// At a blade at an azimuth.
+    pub fn at(&self, azimuth: Azimuth<S>) -> Induced<S> {
+        let skew = &self.skew;
+        let growth = skew.kx * azimuth.cos + skew.ky * azimuth.sin;
+        self.induced.scaled(C(1.0) + growth)
     }
 }
 
@@ -130,12 +155,17 @@ fn mean_residual<S: Scalar>(
     inflow_angle: S,
 ) -> S {
     let far = induced(undisturbed, inflow_angle);
-    let induced = momentum.at_the_blades(flow.edgewise, far.axial, far);
+    let inflow = AnnulusInflow {
+        induced: momentum.at_the_blades(flow.edgewise, far.axial, far),
+        skew: skew(element, flow, far.axial),
+        ..AnnulusInflow::zero()
+    };
     let (sin_inflow, cos_inflow) = (inflow_angle.sin(), inflow_angle.cos());
     let speed = undisturbed.speed;
     let mut sum = S::zero();
     for position in positions {
         let section = flow.at_section(element.radius, position);
+        let induced = inflow.at(position.azimuth);
         // In units of U: its square can overflow.
         let (in_plane, through) = (
             (section.in_plane - induced.swirl) / speed,
@@ -155,6 +185,14 @@ fn mean_residual<S: Scalar>(
     let induced_part = (inflow_angle - undisturbed.angle).sin();
     let factor = element.tip_loss_factor(wake_sine(flow, momentum, undisturbed, inflow_angle));
     factor * 4.0 * resultant * induced_part - lift * element.solidity()
+}
+
+/// The variation around the annulus that the skew of the wake gives; `axial`: induced velocity, m/s.
+fn skew<S: Scalar>(element: &Element<S>, flow: &DiscFlow<S>, axial: S) -> Coefficients<S> {
+    let tip_speed = flow.rotation.abs() * element.tip_radius;
+    Skew::PittPeters
+        .coefficients(flow.edgewise, flow.climb + axial, tip_speed)
+        .scaled(element.radius_ratio())
 }
 
 /// The velocity induced at an inflow angle, without a difference of large numbers.
@@ -189,7 +227,9 @@ pub(super) fn load<S: Scalar>(
     sweep: &mut Sweep<S>,
 ) -> Result<S, RootError> {
     let inflow = solve(element, disc.flow, disc.positions, &disc.momentum)?;
-    sweep.load_in(InducedAt::Blade, |_, _| Ok(inflow.induced))?;
+    sweep.load_in(InducedAt::Blade, |_, position| {
+        Ok(inflow.at(position.azimuth))
+    })?;
     Ok(inflow.mean_axial)
 }
 
@@ -230,6 +270,7 @@ pub fn solve<S: Scalar>(
     let factor = element.tip_loss_factor(wake_sine(flow, momentum, undisturbed, inflow_angle));
     Ok(AnnulusInflow {
         induced,
+        skew: skew(element, flow, far.axial),
         mean_axial: factor * induced.axial,
     })
 }

@@ -109,6 +109,7 @@ pub fn solve<S: Scalar>(
     Ok(AnnulusInflow {
         induced: Induced::axial(axial),
         mean_axial: share * axial,
+        ..AnnulusInflow::zero()
     })
 }
 

@@ -42,6 +42,22 @@ pub struct Coefficients<S = f64> {
     pub ky: S,
 }
 
+impl<S: Scalar> Coefficients<S> {
+    /// No variation.
+    pub fn zero() -> Self {
+        let (kx, ky) = (S::zero(), S::zero());
+        Self { kx, ky }
+    }
+
+    /// `factor * self`.
+    pub fn scaled(&self, factor: f64) -> Self {
+        Self {
+            kx: self.kx * factor,
+            ky: self.ky * factor,
+        }
+    }
+}
+
 /// The flow that skews the wake, in any unit of speed.
 pub struct SkewedWake<S> {
     /// Edgewise, >= 0.
@@ -97,8 +113,7 @@ impl Skew {
     /// * `tip_speed`: >= 0, m/s
     pub fn coefficients<S: Scalar>(self, edgewise: S, through: S, tip_speed: S) -> Coefficients<S> {
         let Some(SkewedWake { along, down, flow }) = SkewedWake::new(edgewise, through) else {
-            let (kx, ky) = (S::zero(), S::zero());
-            return Coefficients { kx, ky };
+            return Coefficients::zero();
         };
         let sin = along / flow;
         let half_tangent = along / (flow + down);
