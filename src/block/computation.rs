@@ -15,6 +15,11 @@ use super::{
 use rotor::{Rotor, SolveError};
 use std::sync::Arc;
 
+/// The warning where the search for a steady start fails.
+const NO_STEADY_START: &str = "no state was found in which inflow and flapping repeat themselves; the simulation starts from \
+     the inflow of momentum theory with the blades at the precone angle, and settles by itself (set initialization to rest to \
+     start without inflow and without this search)";
+
 impl RotorBlock {
     /// Ends the configuration, after which fixed parameters cannot change.
     pub fn start(&mut self) -> Result<(), BlockError> {
@@ -38,11 +43,21 @@ impl RotorBlock {
                 let azimuth_step = values.reals[real::NUMERICS__AZIMUTH_STEP];
                 let rotor = self.rotor()?;
                 let workspace = &mut self.workspace;
-                let state = rotor.start(&condition.point, start, azimuth_step, workspace);
-                Memory::starting(state.map_err(|e| self.unsolved(e))?)
+                let started = rotor.start(&condition.point, start, azimuth_step, workspace);
+                let started = started.map_err(|e| self.unsolved(e))?;
+                self.note_start(started.is_found);
+                Memory::starting(started.state)
             }
         };
         self.publish(&condition, memory)
+    }
+
+    /// Warns once if the start has no steady or periodic state.
+    fn note_start(&mut self, is_found: bool) {
+        if !is_found && self.has_start {
+            self.notes.push(NO_STEADY_START.to_owned());
+        }
+        self.has_start = is_found;
     }
 
     /// The rotor of the present parameters, which is made if there is none.

@@ -99,6 +99,8 @@ pub struct RotorBlock {
     /// The states of the rotor, and the grid point from which they were integrated. `values` holds
     /// the states as well.
     memory: Memory,
+    /// Whether the last start that was computed is the one that was asked for.
+    has_start: bool,
     /// How the inputs move during the next step.
     ramp: Ramp,
     fresh: Fresh,
@@ -123,6 +125,7 @@ impl RotorBlock {
             known_rates: KnownRates::default(),
             dual_workspace: Workspace::default(),
             memory: Memory::default(),
+            has_start: true,
             ramp: Ramp::default(),
             fresh: Fresh::Nothing,
             notes: Vec::new(),

@@ -16,29 +16,34 @@ use nalgebra::DVector;
 /// simulation.
 const STEP_FOR_SLOPES: f64 = PI / 12.0;
 
-/// Maximum number of steps in a blade passage. Rotors that need more, because they turn slowly, do
-/// not start from a periodic state.
-const MAX_STEPS: f64 = 3000.0;
+/// Maximum number of steps in a blade passage. Rotors that need more, because they turn slowly or
+/// have stiff blades, start from the motion of `collocation`.
+const MAX_STEPS: f64 = 600.0;
 
-/// Maximum number of steps of the search in all. Successful searches take a tenth.
-const MAX_STEPS_IN_ALL: f64 = 20_000.0;
+/// Maximum number of steps of the search in all, from a motion that `collocation` has found, and
+/// where it has found none. Successful searches take a third.
+const MAX_STEPS_IN_ALL: [f64; 2] = [6000.0, 1500.0];
 
-/// The periodic state, searched from `guess`; `guess` itself for a rotor that is stopped or turns
-/// too slowly. Fails if the search finds none.
+/// The periodic state, searched from `guess`, which `is_motion` of `collocation` or not; none if the search fails, or if a blade passage takes
+/// too many steps.
 pub(super) fn find(
     rotor: &Rotor,
     point: &OperatingPoint,
     guess: State,
+    is_motion: bool,
     azimuth_step: f64,
     workspace: &mut Workspace,
-) -> Result<State, SolveError> {
+) -> Option<State> {
     let count = |longest: f64| steps(rotor, point, &guess, longest);
-    let Some(steps) = count(azimuth_step) else {
-        return Ok(guess);
+    let steps = count(azimuth_step)?;
+    // Stiff blades, which need more steps than the azimuth, need the same for their slopes.
+    let coarse = cells(rotor, point, azimuth_step.max(STEP_FOR_SLOPES));
+    let steps_for_slopes = match count(azimuth_step.max(STEP_FOR_SLOPES)) {
+        Some(steps) if steps == coarse => steps,
+        Some(_) | None => steps,
     };
-    let steps_for_slopes = count(azimuth_step.max(STEP_FOR_SLOPES)).unwrap_or(steps);
     let unknowns = Unknowns::of_periodic_state(rotor, point);
-    let mut left = MAX_STEPS_IN_ALL;
+    let mut left = MAX_STEPS_IN_ALL[usize::from(!is_motion)];
     let residual = |x: &DVector<f64>, purpose| -> Result<DVector<f64>, SolveError> {
         let steps = match purpose {
             newton::Use::Value => steps,
@@ -51,9 +56,8 @@ pub(super) fn find(
         let passed = after_passage(rotor, point, &unknowns.state(x), steps, workspace)?;
         Ok(unknowns.of(&passed) - x)
     };
-    let found = newton::solve(unknowns.of(&guess), TOLERANCE, residual)?;
-    let found = found.ok_or(SolveError::NoSteadyState)?;
-    Ok(unknowns.state(&found))
+    let found = newton::solve(unknowns.of(&guess), TOLERANCE, residual);
+    Some(unknowns.state(&found.ok()??))
 }
 
 /// Number of steps in a blade passage, each at most `longest` (rad); none for a rotor that is
@@ -67,10 +71,15 @@ pub(super) fn steps(
     if point.speed == 0.0 {
         return None;
     }
-    let passage = passage(rotor, point);
-    let cells = libm::ceil(passage * point.speed / longest * (1.0 - 1e-9)).max(1.0);
-    let steps = cells * rotor.stable_steps(point, state, passage / cells);
+    let cells = cells(rotor, point, longest);
+    let steps = cells * rotor.stable_steps(point, state, passage(rotor, point) / cells);
     (steps <= MAX_STEPS).then_some(steps)
+}
+
+/// Number of steps in a blade passage, each at most `longest` (rad), by azimuth alone.
+fn cells(rotor: &Rotor, point: &OperatingPoint, longest: f64) -> f64 {
+    let turn = passage(rotor, point) * point.speed;
+    libm::ceil(turn / longest * (1.0 - 1e-9)).max(1.0)
 }
 
 /// The state after a blade passage, with the blades renumbered so that it equals `state` if that is
