@@ -16,7 +16,7 @@
 //! standard airfoil.
 
 use super::{Geometry, GeometryError, Rotation, Station};
-use crate::text_file;
+use crate::text_file::{self, TextFile};
 use serde::Deserialize;
 use std::path::Path;
 use thiserror::Error;
@@ -99,12 +99,20 @@ impl Geometry {
     ///
     /// The first problem, with the file and, where it has one, its line and column.
     pub fn read(path: &Path) -> Result<Self, RotorFileError> {
+        Self::read_with_hash(path).map(|(geometry, _)| geometry)
+    }
+
+    /// As `read`, with a 64-bit hash of the file's text, which tells whether the file has changed.
+    ///
+    /// # Errors
+    ///
+    /// As `read`.
+    pub fn read_with_hash(path: &Path) -> Result<(Self, u64), RotorFileError> {
         let file = path.display().to_string();
-        let text = text_file::read(path).map_err(|reason| RotorFileError::Unreadable {
-            file: file.clone(),
-            reason,
-        })?;
-        parse(&text, &file)
+        match text_file::read(path) {
+            Ok(TextFile { text, hash }) => Ok((parse(&text, &file)?, hash)),
+            Err(reason) => Err(RotorFileError::Unreadable { file, reason }),
+        }
     }
 }
 
