@@ -1,6 +1,12 @@
 //! Reads the airfoil files of a rotor.
 
-use super::{location::resolve, setup::SetupError, values::Values, variables::string};
+use super::{
+    files::{FileHash, ReadFile},
+    location::resolve,
+    setup::SetupError,
+    values::Values,
+    variables::string,
+};
 use rotor::{
     airfoil::{Airfoil, Lift},
     geometry::Geometry,
@@ -8,13 +14,13 @@ use rotor::{
 use std::path::Path;
 
 /// Reads the airfoils of a geometry, in its order. A station without an airfoil of its own has the
-/// airfoil of the parameter `airfoil.file`. `notes` gets a sentence for every file.
+/// airfoil of the parameter `airfoil.file`. `files` gets every file.
 pub fn read_airfoils(
     values: &Values,
     geometry: &Geometry,
     lift: Lift,
     resources: &Path,
-    notes: &mut Vec<String>,
+    files: &mut Vec<ReadFile>,
 ) -> Result<Vec<Airfoil>, SetupError> {
     let mut airfoils = Vec::with_capacity(geometry.airfoils.len());
     for station in &geometry.airfoils {
@@ -25,7 +31,7 @@ pub fn read_airfoils(
             &values.strings[string::AIRFOIL__FILE]
         };
         let path = resolve(resources, "airfoils", name);
-        let airfoil = Airfoil::read(&path).map_err(|cause| {
+        let (airfoil, hash) = Airfoil::read_with_hash(&path).map_err(|cause| {
             if has_own {
                 SetupError::StationAirfoil {
                     name: values.strings[string::GEOMETRY__FILE].clone(),
@@ -49,11 +55,14 @@ pub fn read_airfoils(
                 },
             });
         }
-        notes.push(format!(
-            "read airfoil {:?} from {}",
-            airfoil.name(),
-            path.display()
-        ));
+        files.push(ReadFile {
+            content: FileHash {
+                name: name.to_owned(),
+                hash,
+            },
+            path,
+            what: format!("read airfoil {:?}", airfoil.name()),
+        });
         airfoils.push(airfoil);
     }
     Ok(airfoils)

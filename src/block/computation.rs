@@ -1,7 +1,8 @@
 //! Values out of the block: the rotor's response to the present inputs, parameters and states.
 
 use super::{
-    BlockError, Fresh, RotorBlock, Stage,
+    BlockError, Fresh, Note, RotorBlock, Stage,
+    files::{self, FileHash, ReadFile},
     flight_condition::FlightCondition,
     integrate::Memory,
     outputs::write_response,
@@ -50,15 +51,26 @@ impl RotorBlock {
         if let Some(rotor) = &self.rotor {
             return Ok(Arc::clone(rotor));
         }
-        let (rotor, notes) = setup::rotor(&self.values, &self.resources)?;
-        Ok(self.take_over(rotor, notes))
+        let (rotor, files) = setup::rotor(&self.values, &self.resources)?;
+        Ok(self.take_over(rotor, files))
     }
 
-    /// Stores a rotor that was just made, and the notes from making it.
-    pub(super) fn take_over(&mut self, rotor: Rotor, notes: Vec<String>) -> Arc<Rotor> {
+    /// Stores a rotor that was just made, and the files from which it was. Warns of files that are
+    /// not those of the state that was restored before.
+    pub(super) fn take_over(&mut self, rotor: Rotor, files: Vec<ReadFile>) -> Arc<Rotor> {
+        let notes = files.iter().map(|file| Note::Event(file.note()));
         self.notes.extend(notes);
+        self.files = files;
+        let saved = std::mem::take(&mut self.saved_files);
+        self.compare_files(&saved);
         self.outside_data = OutsideDataNotice::default();
         Arc::clone(self.rotor.insert(Arc::new(rotor)))
+    }
+
+    /// Warns of files of the rotor whose content differs from that in a saved state.
+    pub(super) fn compare_files(&mut self, saved: &[FileHash]) {
+        let changes = files::changes(saved, &self.files);
+        self.notes.extend(changes.into_iter().map(Note::Warning));
     }
 
     /// Computes the outputs in a flight condition. If all are finite, they and the states in
@@ -91,8 +103,8 @@ impl RotorBlock {
         }
         self.memory = memory;
         self.fresh = Fresh::All;
-        self.notes
-            .extend(self.outside_data.next(&rotor, &response.blade));
+        let outside = self.outside_data.next(&rotor, &response.blade);
+        self.notes.extend(outside.map(Note::Event));
         Ok(())
     }
 
