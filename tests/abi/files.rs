@@ -235,8 +235,16 @@ fn malformed_rotor_files_are_refused_with_the_place() {
         ),
         ("blades.toml", changed("= 2", "= 0"), "must be 1 or more"),
         ("minus.toml", changed("= 2", "= -2"), "line 1"),
-        ("radius.toml", changed("1.0", "-1.0"), "must be above 0"),
-        ("infinite.toml", changed("1.0", "inf"), "must be above 0"),
+        (
+            "radius.toml",
+            changed("1.0", "-1.0"),
+            "must lie between 0.001 and 1000 m",
+        ),
+        (
+            "infinite.toml",
+            changed("1.0", "inf"),
+            "must lie between 0.001 and 1000 m",
+        ),
         ("nan.toml", changed("0.1 }", "nan }"), "chord"),
         ("station.toml", changed("r = 0.2", "r = nan"), "station"),
         ("cutout.toml", changed("r = 0.2", "r = 1.2"), "outwards"),

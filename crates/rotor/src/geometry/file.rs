@@ -210,12 +210,23 @@ station = [
             (
                 "radius = 1.5",
                 "radius = -1.5",
-                "bad.toml: the rotor radius is -1.5 m",
+                "bad.toml: the rotor radius is -1.5 m; it must lie between",
             ),
             (
                 "chord = 0.1, twist = 2.0",
                 "chord = -1, twist = 2.0",
-                "at r/R = 0.95 the chord is -1 m",
+                "at the blade station r/R = 0.95 the chord is -1.0 m",
+            ),
+            (
+                "chord = 0.1, twist = 2.0",
+                "chord = 1e100",
+                "at the blade station r/R = 0.95 the chord is 1e100 m",
+            ),
+            ("twist = 2.0", "twist = 1e300", "r/R = 0.95 the twist is "),
+            (
+                "radius = 1.5",
+                "radius = 1e100",
+                "bad.toml: the rotor radius is 1e100 m",
             ),
             ("r = 0.95", "r = 0.1", "r/R = 0.1 follows 0.2"),
             ("[\n", "[[\n", "bad.toml, line "),
