@@ -287,6 +287,11 @@ impl Airfoil {
         }
     }
 
+    /// Whether the section has lift at any angle.
+    pub fn lifts(&self) -> bool {
+        self.summary.lifts
+    }
+
     /// The lift as one line: its slope, 1/rad, and its angle of zero lift, rad.
     ///
     /// For a table it is the line through the lift at -3 and +3 deg of angle of attack (thesis

@@ -52,6 +52,14 @@ impl Elements {
         elements
     }
 
+    /// Whether an airfoil, by its index in `Geometry::airfoils`, has a share in an element.
+    pub fn uses(&self, element: usize, airfoil: usize) -> bool {
+        let share = self.outer_share[element];
+        let is_inner = self.inner_airfoil[element] == airfoil && share < 1.0;
+        let is_outer = self.outer_airfoil[element] == airfoil && share > 0.0;
+        is_inner || is_outer
+    }
+
     /// Number of elements.
     pub fn len(&self) -> usize {
         self.radius.len()

@@ -180,7 +180,7 @@ impl Geometry {
                 ));
             }
         }
-        let largest = self.stations.iter().fold(0.0, |c: f64, s| c.max(s.chord));
+        let largest = self.largest_chord();
         if largest < *CHORD.start() {
             return fail(format!(
                 "the largest chord of the blade is {largest:?} m; it must be {} m or more",
@@ -199,6 +199,22 @@ impl Geometry {
     pub fn twist(&self, radius_ratio: f64) -> f64 {
         self.interpolate(radius_ratio, |s| s.twist)
             - self.interpolate(self.pitch_reference_radius, |s| s.twist)
+    }
+
+    /// Chord at `radius_ratio`, from the cutout to the tip, m.
+    pub fn chord(&self, radius_ratio: f64) -> f64 {
+        self.interpolate(radius_ratio, |s| s.chord)
+    }
+
+    /// Largest chord of the blade, m.
+    pub fn largest_chord(&self) -> f64 {
+        self.stations.iter().fold(0.0, |c, s| s.chord.max(c))
+    }
+
+    /// Area of the blades from the cutout to the tip over the disc area pi R^2.
+    pub fn solidity(&self) -> f64 {
+        let disc = PI * self.radius * self.radius;
+        f64::from(self.blades) * self.area(self.cutout(), 1.0) / disc
     }
 
     /// A quantity at a radius: linear between the stations; inside the cutout it follows the line
@@ -301,10 +317,12 @@ mod tests {
     }
 
     #[test]
-    fn twist_counts_from_the_pitch_reference_radius() {
+    fn chord_solidity_and_twist_from_the_pitch_reference_radius() {
         let mut geometry = Geometry::linear(3, 1.0, 0.2, 0.1, 1.0, -0.1);
         assert!((geometry.twist(1.0) + 0.1).abs() < 1e-15);
         assert!((geometry.twist(0.5) + 0.05).abs() < 1e-15);
+        assert_eq!((geometry.chord(1.0), geometry.largest_chord()), (0.1, 0.1));
+        assert!((geometry.solidity() - 3.0 * 0.08 / PI).abs() < 1e-15);
         geometry.pitch_reference_radius = 0.75;
         assert!(geometry.twist(0.75).abs() < 1e-15);
         assert!((geometry.twist(1.0) + 0.025).abs() < 1e-15);
