@@ -3,7 +3,7 @@
 mod elements;
 mod file;
 
-pub use elements::Elements;
+pub use elements::{Elements, Missed};
 pub use file::RotorFileError;
 
 use core::{f64::consts::PI, ops::RangeInclusive};
@@ -236,6 +236,17 @@ impl Geometry {
             b,
             (radius_ratio - a.radius_ratio) / (b.radius_ratio - a.radius_ratio),
         )
+    }
+
+    /// Distance of a station, by its index, from the nearer of its neighbours, r/R.
+    pub fn gap(&self, station: usize) -> f64 {
+        let gaps = self.stations.windows(2);
+        let gaps = gaps.map(|pair| pair[1].radius_ratio - pair[0].radius_ratio);
+        // The gap before the station and the one behind it.
+        let sides = gaps.skip(station.saturating_sub(1));
+        sides
+            .take(if station == 0 { 1 } else { 2 })
+            .fold(1.0, f64::min)
     }
 
     /// Blade area between two radii (fractions of R), m2: the exact integral of the linear chord.
