@@ -11,7 +11,21 @@ use rotor::{
     airfoil::{Airfoil, Lift},
     geometry::Geometry,
 };
-use std::path::Path;
+use std::{fs, path::Path};
+
+/// The airfoils in the FMU with the names by which `airfoil.file` finds them; those that cannot be
+/// read are left out.
+pub fn shipped(resources: &Path) -> Vec<(String, Airfoil)> {
+    let entries = fs::read_dir(resources.join("airfoils"))
+        .into_iter()
+        .flatten();
+    let airfoils = entries.flatten().filter_map(|entry| {
+        let name = entry.file_name().into_string().ok()?;
+        let airfoil = Airfoil::read(&entry.path()).ok()?;
+        Some((format!("airfoils/{name}"), airfoil))
+    });
+    airfoils.collect()
+}
 
 /// Reads the airfoils of a geometry, in its order. A station without an airfoil of its own has the
 /// airfoil of the parameter `airfoil.file`. `files` gets every file.

@@ -1,12 +1,13 @@
 //! Values out of the block: the rotor's response to the present inputs, parameters and states.
 
 use super::{
-    BlockError, Fresh, Note, RotorBlock, Stage,
+    BlockError, Fresh, Note, RotorBlock, Stage, airfoils,
     files::{self, FileHash, ReadFile},
     flight_condition::FlightCondition,
     integrate::Memory,
     outputs::write_response,
     outside_data::OutsideDataNotice,
+    plausibility::{self, Initialized},
     references::Reals,
     setup,
     shown::shown,
@@ -17,9 +18,18 @@ use rotor::{Rotor, SolveError};
 use std::sync::Arc;
 
 impl RotorBlock {
-    /// Ends the configuration, after which fixed parameters cannot change.
+    /// Ends the configuration, after which fixed parameters cannot change. Warns of implausible
+    /// values.
     pub fn start(&mut self) -> Result<(), BlockError> {
         self.update()?;
+        let start = Initialized {
+            rotor: &*self.rotor()?,
+            values: &self.values,
+            point: &FlightCondition::new(&self.values)?.point,
+            shipped: &|| airfoils::shipped(&self.resources),
+        };
+        let warnings = plausibility::warnings(&start);
+        self.notes.extend(warnings.into_iter().map(Note::Warning));
         self.stage = Stage::Running;
         Ok(())
     }

@@ -11,7 +11,7 @@
 //! * `derivative`: directional derivatives
 //! * `snapshot`: the block's state, saved and restored
 //! * `location`, `files`: where files are, and whether they have changed
-//! * `shown`, `outside_data`: texts for messages
+//! * `shown`, `outside_data`, `plausibility`: texts for messages
 
 mod airfoils;
 mod co_simulation;
@@ -25,6 +25,7 @@ mod location;
 mod model_exchange;
 mod outputs;
 mod outside_data;
+mod plausibility;
 mod ramp;
 mod references;
 mod setting;
@@ -159,8 +160,8 @@ impl RotorBlock {
     }
 
     /// Returns the sentences for the log that have come up since the last call: the files that
-    /// were read, files that have changed since a state was saved, and flow outside the data of an
-    /// airfoil file.
+    /// were read, files that have changed since a state was saved, implausible values, and flow
+    /// outside the data of an airfoil file.
     pub fn take_notes(&mut self) -> Vec<Note> {
         std::mem::take(&mut self.notes)
     }
