@@ -1,11 +1,13 @@
 //! Values out of the block: the rotor's response to the present inputs, parameters and states.
 
 use super::{
-    BlockError, Fresh, RotorBlock, Stage,
+    BlockError, Fresh, Note, RotorBlock, Stage, airfoils,
+    files::{self, FileHash, ReadFile},
     flight_condition::FlightCondition,
     integrate::Memory,
     outputs::write_response,
     outside_data::OutsideDataNotice,
+    plausibility::{self, Initialized},
     references::Reals,
     setup,
     shown::shown,
@@ -21,9 +23,18 @@ const NO_STEADY_START: &str = "no state was found in which inflow and flapping r
      start without inflow and without this search)";
 
 impl RotorBlock {
-    /// Ends the configuration, after which fixed parameters cannot change.
+    /// Ends the configuration, after which fixed parameters cannot change. Warns of implausible
+    /// values.
     pub fn start(&mut self) -> Result<(), BlockError> {
         self.update()?;
+        let start = Initialized {
+            rotor: &*self.rotor()?,
+            values: &self.values,
+            point: &FlightCondition::new(&self.values)?.point,
+            shipped: &|| airfoils::shipped(&self.resources),
+        };
+        let warnings = plausibility::warnings(&start);
+        self.notes.extend(warnings.into_iter().map(Note::Warning));
         self.stage = Stage::Running;
         Ok(())
     }
@@ -65,15 +76,26 @@ impl RotorBlock {
         if let Some(rotor) = &self.rotor {
             return Ok(Arc::clone(rotor));
         }
-        let (rotor, notes) = setup::rotor(&self.values, &self.resources)?;
-        Ok(self.take_over(rotor, notes))
+        let (rotor, files) = setup::rotor(&self.values, &self.resources)?;
+        Ok(self.take_over(rotor, files))
     }
 
-    /// Stores a rotor that was just made, and the notes from making it.
-    pub(super) fn take_over(&mut self, rotor: Rotor, notes: Vec<String>) -> Arc<Rotor> {
+    /// Stores a rotor that was just made, and the files from which it was. Warns of files that are
+    /// not those of the state that was restored before.
+    pub(super) fn take_over(&mut self, rotor: Rotor, files: Vec<ReadFile>) -> Arc<Rotor> {
+        let notes = files.iter().map(|file| Note::Event(file.note()));
         self.notes.extend(notes);
+        self.files = files;
+        let saved = std::mem::take(&mut self.saved_files);
+        self.compare_files(&saved);
         self.outside_data = OutsideDataNotice::default();
         Arc::clone(self.rotor.insert(Arc::new(rotor)))
+    }
+
+    /// Warns of files of the rotor whose content differs from that in a saved state.
+    pub(super) fn compare_files(&mut self, saved: &[FileHash]) {
+        let changes = files::changes(saved, &self.files);
+        self.notes.extend(changes.into_iter().map(Note::Warning));
     }
 
     /// Computes the outputs in a flight condition. If all are finite, they and the states in
@@ -106,8 +128,8 @@ impl RotorBlock {
         }
         self.memory = memory;
         self.fresh = Fresh::All;
-        self.notes
-            .extend(self.outside_data.next(&rotor, &response.blade));
+        let outside = self.outside_data.next(&rotor, &response.blade);
+        self.notes.extend(outside.map(Note::Event));
         Ok(())
     }
 

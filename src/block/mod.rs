@@ -10,12 +10,14 @@
 //! * `model_exchange`, `state_vector`: states and derivatives for an importer that integrates
 //! * `derivative`: directional derivatives
 //! * `snapshot`: the block's state, saved and restored
-//! * `location`, `shown`, `outside_data`: file names, and texts for messages
+//! * `location`, `files`: where files are, and whether they have changed
+//! * `shown`, `outside_data`, `plausibility`: texts for messages
 
 mod airfoils;
 mod co_simulation;
 mod computation;
 mod derivative;
+mod files;
 mod flight_condition;
 mod integrate;
 mod known_rates;
@@ -23,6 +25,7 @@ mod location;
 mod model_exchange;
 mod outputs;
 mod outside_data;
+mod plausibility;
 mod ramp;
 mod references;
 mod setting;
@@ -40,6 +43,7 @@ pub use setup::SetupError;
 pub use snapshot::{Contradiction, Snapshot};
 pub use values::{Stage, ValueError, Values};
 
+use files::{FileHash, ReadFile};
 use integrate::Memory;
 use known_rates::KnownRates;
 use num_dual::Dual64;
@@ -75,6 +79,15 @@ pub enum BlockError {
     },
 }
 
+/// A sentence for the log.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Note {
+    /// For users who want to know what happens.
+    Event(String),
+    /// Something may be wrong.
+    Warning(String),
+}
+
 /// Which computed values belong to the present inputs, parameters and states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 enum Fresh {
@@ -92,6 +105,10 @@ pub struct RotorBlock {
     resources: PathBuf,
     /// None until the rotor is needed, and after a change of a parameter that defines it.
     rotor: Option<Arc<Rotor>>,
+    /// The files from which `rotor` was made.
+    files: Vec<ReadFile>,
+    /// The files of a state that was restored before its rotor was needed.
+    saved_files: Vec<FileHash>,
     workspace: Workspace,
     known_rates: KnownRates,
     /// For directional derivatives; empty until the first of them.
@@ -107,7 +124,7 @@ pub struct RotorBlock {
     /// The flow state as last computed. The variable changes at events only.
     flow_state: i32,
     /// Sentences for the log since the last call of `take_notes`.
-    notes: Vec<String>,
+    notes: Vec<Note>,
     outside_data: OutsideDataNotice,
 }
 
@@ -121,6 +138,8 @@ impl RotorBlock {
             stage: Stage::Configuring,
             resources,
             rotor: None,
+            files: Vec::new(),
+            saved_files: Vec::new(),
             workspace: Workspace::default(),
             known_rates: KnownRates::default(),
             dual_workspace: Workspace::default(),
@@ -144,8 +163,9 @@ impl RotorBlock {
     }
 
     /// Returns the sentences for the log that have come up since the last call: the files that
-    /// were read, and flow outside the data of an airfoil file.
-    pub fn take_notes(&mut self) -> Vec<String> {
+    /// were read, files that have changed since a state was saved, implausible values, and flow
+    /// outside the data of an airfoil file.
+    pub fn take_notes(&mut self) -> Vec<Note> {
         std::mem::take(&mut self.notes)
     }
 }
