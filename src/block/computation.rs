@@ -66,7 +66,7 @@ impl RotorBlock {
     /// Warns once if the start has no steady or periodic state.
     fn note_start(&mut self, is_found: bool) {
         if !is_found && self.has_start {
-            self.notes.push(NO_STEADY_START.to_owned());
+            self.notes.push(Note::Warning(NO_STEADY_START.to_owned()));
         }
         self.has_start = is_found;
     }

@@ -4,9 +4,11 @@
 use super::{
     shown::shown,
     values::Values,
-    variables::{Causality, INTEGERS, REALS, RealRef, Variable, integer, real, string},
+    variables::{
+        Causality, INTEGERS, InflowModel, REALS, RealRef, Variable, integer, real, string,
+    },
 };
-use core::f64::consts::{FRAC_PI_2, FRAC_PI_3};
+use core::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 use rotor::{
     OperatingPoint, Rotor,
     airfoil::{Airfoil, Axis},
@@ -20,6 +22,10 @@ const MAX_SOLIDITY: f64 = 0.5;
 
 /// Largest blade pitch, and largest difference of twist along a blade, rad.
 const MAX_PITCH: f64 = FRAC_PI_3;
+
+/// Pitch at an element up to which the closed form, which takes angles for their sines and tangents,
+/// has less than 5 % too much thrust in hover, rad.
+const MAX_SMALL_PITCH: f64 = PI / 9.0;
 
 /// Lock numbers of built rotors.
 const LOCK_NUMBERS: (f64, f64) = (1.0, 20.0);
@@ -60,6 +66,7 @@ pub fn warnings(start: &Initialized) -> Vec<String> {
         chord(start),
         solidity(start),
         twist_of_file(start),
+        small_angles(start),
         replaced(start.values),
         missed_station(start),
         tip_mach(start),
@@ -172,6 +179,21 @@ fn twist_of_file(start: &Initialized) -> Option<String> {
             "{}: the twist varies by {:.1} deg along the blade, beyond 60 deg; is it in degrees, and from the same line at every station?",
             shape(start.values, ""),
             (high - low).to_degrees()
+        )
+    })
+}
+
+/// Pitch of the closed form beyond the small angles that it assumes.
+fn small_angles(start: &Initialized) -> Option<String> {
+    let model = start.values.integers[integer::MODELS__INFLOW];
+    let twist = &start.rotor.elements().twist;
+    let pitch = twist.iter().map(|twist| start.point.collective + twist);
+    let largest = pitch.fold(0.0, |a: f64, b| if b.abs() > a.abs() { b } else { a });
+    (model == InflowModel::AnnulusClosedForm as i32 && largest.abs() > MAX_SMALL_PITCH).then(|| {
+        format!(
+            "models.inflow = annulusClosedForm assumes small angles and attached flow, but the pitch reaches {:.0} deg; beyond {:.0} deg its thrust is too large by 5 % and more: set models.inflow to annulus",
+            largest.to_degrees(),
+            MAX_SMALL_PITCH.to_degrees()
         )
     })
 }
@@ -506,6 +528,21 @@ mod tests {
                 &[&expected, "8 deg = 0.1396 rad"],
             );
         }
+    }
+
+    #[test]
+    fn pitch_beyond_the_small_angles_of_the_closed_form() {
+        let closed_form = |pitch: f64| {
+            warned(|block| {
+                let inflow = [integer::MODELS__INFLOW];
+                let model = InflowModel::AnnulusClosedForm as i32;
+                block.set_integers(&inflow, &[model]).unwrap();
+                block.set_reals(&[real::COLLECTIVE], &[pitch]).unwrap();
+            })
+        };
+        assert_eq!(closed_form(0.3), [""; 0]);
+        says(&closed_form(0.62), &["annulusClosedForm", "reaches 36 deg"]);
+        assert_eq!(with_reals(&[(real::COLLECTIVE, 0.62)]), [""; 0]);
     }
 
     #[test]
