@@ -37,6 +37,12 @@ pub struct Element<'a, S = f64> {
     pub density: S,
 }
 
+/// Part of a velocity over which a corner beside it is rounded.
+const ROUNDING: f64 = 0.1;
+
+/// The same for the change from lift with the induced velocity to lift against it.
+const SHARPNESS: f64 = 0.01;
+
 /// The airfoils of the stations on either side of an element, whose coefficients are mixed.
 #[derive(Debug, Clone, Copy)]
 pub struct Section<'a> {
@@ -134,7 +140,8 @@ impl<S: Scalar> Element<'_, S> {
     /// Towards the tip mean/F grows without bound. In a balance of the annulus the momentum would
     /// fall with the lift; here the mean is given. So the addition a = mean/F - mean goes over
     /// smoothly to d = cl W/(2 pi), which takes away all the lift cl that the mean flow leaves (for
-    /// a lift slope of 2 pi): a d/sqrt(a^2 + d^2). This limit is our assumption.
+    /// a lift slope of 2 pi): a d/sqrt(a^2 + d^2). Where the lift acts against the mean, nothing is
+    /// added. These limits are our assumption, and their corners are rounded.
     pub fn induced_at_blade(&self, section: &SectionFlow<S>, mean: S) -> S {
         let through = section.through + section.flap_cos * mean;
         let speed = section.in_plane.hypot(through);
@@ -145,26 +152,20 @@ impl<S: Scalar> Element<'_, S> {
         if factor.value() == 1.0 {
             return mean;
         }
-        let is_backward = section.in_plane.value() < 0.0;
-        let side = if mean.is_below(0.0) != is_backward {
-            -1.0
-        } else {
-            1.0
-        };
+        // Lift acts up in forward and down in reversed flow; along the shaft it does neither.
+        let forward = section.in_plane / section.in_plane.hypot(C(ROUNDING) * through);
         let alpha = self.pitch + section.pitch - through.atan2(section.in_plane);
-        let lift = C(side) * self.lift_coefficient(alpha, speed);
-        let limit = lift.at_least(0.0) * speed / (2.0 * PI);
-        let added = mean.abs() / factor - mean.abs();
-        let size = added.hypot(limit);
-        if size.value() == 0.0 {
+        let lift = forward * self.lift_coefficient(alpha, speed) * speed / (2.0 * PI);
+        if lift.value() == 0.0 && mean.value() == 0.0 {
             return mean;
         }
-        let added = added * (limit / size);
-        if mean.is_below(0.0) {
-            mean - added
-        } else {
-            mean + added
-        }
+        let limit = lift.hypot(C(ROUNDING) * mean);
+        let added = mean / factor - mean;
+        // 1 where lift and mean have the same direction, 0 where they have not.
+        let product = mean * lift;
+        let sum = C(SHARPNESS) * (mean * mean + lift * lift);
+        let share = C(0.5) * (C(1.0) + product / product.hypot(sum));
+        mean + share * added * (limit / added.hypot(limit))
     }
 
     /// Loads of the section at a pitch (rad) in a flow with the components `in_plane` against the

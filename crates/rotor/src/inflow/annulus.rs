@@ -66,6 +66,7 @@
 //! v_psi = v (1 + 15 pi/32 tan(chi/2) (r/R) cos psi),   chi = atan(V_x/|V + v|).
 //! ```
 //!
+//! In descent the law's V' takes the place of |V + v|, which passes through 0.
 //! It is part of the lift in R, so that the annulus' mean and its momentum keep their balance. As in
 //! AeroDyn (Moriarty & Hansen 2005, NREL/TP-500-36881, ch. 2.4) each annulus has its own chi; in
 //! axial flow nothing changes.
@@ -157,7 +158,7 @@ fn mean_residual<S: Scalar>(
     let far = induced(undisturbed, inflow_angle);
     let inflow = AnnulusInflow {
         induced: momentum.at_the_blades(flow.edgewise, far.axial, far),
-        skew: skew(element, flow, far.axial),
+        skew: skew(element, flow, momentum, far.axial),
         ..AnnulusInflow::zero()
     };
     let (sin_inflow, cos_inflow) = (inflow_angle.sin(), inflow_angle.cos());
@@ -188,10 +189,19 @@ fn mean_residual<S: Scalar>(
 }
 
 /// The variation around the annulus that the skew of the wake gives; `axial`: induced velocity, m/s.
-fn skew<S: Scalar>(element: &Element<S>, flow: &DiscFlow<S>, axial: S) -> Coefficients<S> {
+fn skew<S: Scalar>(
+    element: &Element<S>,
+    flow: &DiscFlow<S>,
+    momentum: &Momentum<S>,
+    axial: S,
+) -> Coefficients<S> {
     let tip_speed = flow.rotation.abs() * element.tip_radius;
     Skew::PittPeters
-        .coefficients(flow.edgewise, flow.climb + axial, tip_speed)
+        .coefficients(
+            flow.edgewise,
+            momentum.wake_speed(flow.climb, axial),
+            tip_speed,
+        )
         .scaled(element.radius_ratio())
 }
 
@@ -270,7 +280,7 @@ pub fn solve<S: Scalar>(
     let factor = element.tip_loss_factor(wake_sine(flow, momentum, undisturbed, inflow_angle));
     Ok(AnnulusInflow {
         induced,
-        skew: skew(element, flow, far.axial),
+        skew: skew(element, flow, momentum, far.axial),
         mean_axial: factor * induced.axial,
     })
 }

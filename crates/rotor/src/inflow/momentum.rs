@@ -57,6 +57,16 @@ impl<S: Scalar> Momentum<S> {
         }
     }
 
+    /// Speed at which the wake leaves the disc, along the shaft, m/s: V_c + v where `is_plain`,
+    /// either way, and V' in descent, which does not pass through 0.
+    pub(crate) fn wake_speed(&self, climb: S, induced: S) -> S {
+        if self.is_plain(climb, induced) {
+            climb + induced
+        } else {
+            self.descent.speed(S::zero(), climb, induced)
+        }
+    }
+
     /// Sine of the angle at which the wake leaves the disc, for Prandtl's F, where `is_plain` is
     /// false. There the mass flow is V' and not |V_c + v|, which passes through 0: with it F would
     /// rise to 1 in a narrow peak, and the momentum balance would have several roots.

@@ -57,6 +57,11 @@ pub(super) fn find(
         Ok(unknowns.of(&passed) - x)
     };
     let found = newton::solve(unknowns.of(&guess), TOLERANCE, residual);
+    if !matches!(found, Ok(Some(_))) {
+        println!(
+            "SHOOTING FAILED steps {steps} slopes {steps_for_slopes} left {left} motion {is_motion}"
+        );
+    }
     Some(unknowns.state(&found.ok()??))
 }
 
