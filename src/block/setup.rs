@@ -15,7 +15,7 @@ use rotor::{
     Blades, Models, Rotor, Start,
     airfoil::{AirfoilError, Lift, SectionModel},
     compressibility::Compressibility,
-    flapping::{Freedom, Hinge},
+    flapping::{BladeMass, Freedom, Hinge},
     geometry::{self, BladeInertia, Elements, Geometry, GeometryError, RotorFileError},
     inflow::{Descent, ElementInflow, GroundEffect, Inflow, Skew},
     state::MAX_FLAPPING_BLADES,
@@ -245,11 +245,11 @@ fn hinge(
 ) -> Result<Hinge, SetupError> {
     let reals = &values.reals;
     let offset = reals[real::FLAPPING__HINGE_OFFSET] * geometry.radius;
-    let inertia = blade_inertia(values, geometry)?;
+    let length = geometry.radius - offset;
+    let mass = BladeMass::rod(blade_inertia(values, geometry)?, length);
     let freedom = values.booleans[boolean::FLAPPING__ENABLED].then(|| Freedom {
-        inertia,
         pitch_flap: libm::tan(reals[real::FLAPPING__DELTA3]),
-        length: geometry.radius - offset,
+        length,
     });
     if freedom.is_some() {
         if geometry.blades as usize > MAX_FLAPPING_BLADES {
@@ -266,6 +266,7 @@ fn hinge(
     Ok(Hinge {
         offset,
         precone: reals[real::FLAPPING__PRECONE],
+        mass,
         freedom,
     })
 }
@@ -326,8 +327,7 @@ mod tests {
     }
 
     fn inertia(block: &mut RotorBlock) -> Result<f64, BlockError> {
-        let freedom = block.rotor()?.models().hinge.freedom;
-        Ok(freedom.map_or(0.0, |freedom| freedom.inertia))
+        Ok(block.rotor()?.models().hinge.mass.inertia)
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! Flapping of rigid blades about their hinges.
+//! Flapping of rigid blades about their hinges, and what the inertia of blades does to the hub.
 //!
 //! The blade outboard of the hinge at radius h is a uniform rod, so that its moment of inertia I
 //! about the hinge gives the other moments: with the length l = R - h, the first moment S = 3/2 I/l
@@ -17,11 +17,20 @@
 //! beta_p. For small angles and a hub at rest the flapping frequency is Omega sqrt(1 + h S/I + k/(I
 //! Omega^2)), h S/I = 3/2 e/(1 - e).
 //!
-//! Assumptions. The hub's velocity and angular velocity change slowly enough that their derivatives
-//! do not act on the blades. The hub feels each blade through its spring and, at the offset,
-//! through the aerodynamic and inertia forces of the blade. With azimuth averages it feels the
-//! aerodynamic forces alone, because inertia forces cancel over one revolution. The weight of the
-//! blades belongs to the vehicle's weight.
+//! A blade that does not flap is one with an infinitely stiff spring at the precone angle: beta' =
+//! beta'' = 0, and the spring carries what is left of the equation. On a hub that turns at the roll
+//! and pitch rates p and q, N >= 3 such blades without precone exert the gyroscopic moment N I_s
+//! (Omega + r/2) (-q, p), with r the yaw rate and I_s = I + 2 h S + h^2 m about the shaft: Euler's
+//! equations (Goldstein 1980, "Classical Mechanics", eq. 5-39) for a flat disc. With one or two
+//! blades the moment varies twice per revolution about this mean.
+//!
+//! Assumptions. The hub's velocity and angular velocity and the rotor speed change slowly enough
+//! that their derivatives act neither on the blades nor, by way of their inertia, on the hub. The
+//! hub feels each flapping blade through its spring and, at the offset, through the aerodynamic and
+//! inertia forces of the blade. Of rigid blades it feels the aerodynamic forces and the inertia that
+//! belongs to its own roll and pitch; all other inertia forces cancel among the blades, and one
+//! blade has a counterweight. Inertia has no part in the force on the hub and in the torque. The
+//! weight of the blades belongs to the vehicle's weight.
 
 use super::{
     disc::{BladePosition, DiscFlow},
@@ -31,22 +40,45 @@ use super::{
 use core::f64::consts::PI;
 use nalgebra::Vector3;
 
-/// The flapping hinges. Blades that do not flap are rigid at the precone angle.
+/// The flapping hinges and the blades' mass. Blades that do not flap are rigid at the precone angle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Hinge {
     /// Distance of the hinges from the shaft, m.
     pub offset: f64,
     /// Angle at which the spring is at rest, rad.
     pub precone: f64,
+    /// Mass of one blade outboard of its hinge.
+    pub mass: BladeMass,
     /// None for rigid blades.
     pub freedom: Option<Freedom>,
+}
+
+/// The mass of one blade outboard of its hinge; by default it has none.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct BladeMass {
+    /// Moment of inertia I about the hinge, kg.m2, > 0 for blades that flap.
+    pub inertia: f64,
+    /// First moment S about the hinge, kg.m.
+    pub first_moment: f64,
+    /// m, kg.
+    pub mass: f64,
+}
+
+impl BladeMass {
+    /// A uniform rod with a moment of inertia about the hinge, kg.m2, and a length from hinge to
+    /// tip, m, > 0.
+    pub fn rod(inertia: f64, length: f64) -> Self {
+        Self {
+            inertia,
+            first_moment: 1.5 * inertia / length,
+            mass: 3.0 * inertia / (length * length),
+        }
+    }
 }
 
 /// A blade that flaps.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Freedom {
-    /// Moment of inertia of one blade about its hinge, kg.m2, > 0.
-    pub inertia: f64,
     /// Tangent of delta3: the pitch falls by this times the flap angle above the precone.
     pub pitch_flap: f64,
     /// Length of the blade outboard of the hinge, m, > 0.
@@ -64,69 +96,97 @@ pub struct Action<S = f64> {
     pub gravity: Vector3<S>,
 }
 
-impl Freedom {
-    /// First moment about the hinge, kg.m.
-    fn first_moment(&self) -> f64 {
-        1.5 * self.inertia / self.length
-    }
-
-    fn mass(&self) -> f64 {
-        3.0 * self.inertia / (self.length * self.length)
-    }
-
+impl Hinge {
     /// beta'' of a blade, rad/s2.
     pub fn acceleration<S: Scalar>(
         &self,
-        hinge: &Hinge,
         flow: &DiscFlow<S>,
         position: &BladePosition<S>,
         action: &Action<S>,
+    ) -> S {
+        let (sin, cos) = (position.flap_sin, position.flap_cos);
+        let outwards =
+            -action.gravity.x * position.azimuth.cos - action.gravity.y * position.azimuth.sin;
+        let weight = (cos * action.gravity.z - sin * outwards) * self.mass.first_moment;
+        let spring = action.spring * (position.flap.angle - self.precone);
+        self.with_inertia(action.moment - spring + weight, flow, position) / self.mass.inertia
+    }
+
+    /// A moment about the hinge together with that of the inertia forces on a blade whose flap rate
+    /// does not change, positive up, N.m.
+    fn with_inertia<S: Scalar>(
+        &self,
+        moment: S,
+        flow: &DiscFlow<S>,
+        position: &BladePosition<S>,
     ) -> S {
         let (sin, cos) = (position.flap_sin, position.flap_cos);
         let (radial, tangential) = flow.hub_rates(position.azimuth);
         let rotation = flow.rotation;
-        let first = self.first_moment();
-        let offset_moment = hinge.offset * first;
-        let outwards =
-            -action.gravity.x * position.azimuth.cos - action.gravity.y * position.azimuth.sin;
-        let weight = (cos * action.gravity.z - sin * outwards) * first;
-        let spring = action.spring * (position.flap.angle - hinge.precone);
-        let turning = -flow.speed * radial * (cos * offset_moment + self.inertia);
+        let inertia = self.mass.inertia;
+        let offset_moment = self.offset * self.mass.first_moment;
+        let turning = -flow.speed * radial * (cos * offset_moment + inertia);
         let across = (rotation * cos - radial * sin)
-            * (radial * offset_moment + (radial * cos + rotation * sin) * self.inertia);
+            * (radial * offset_moment + (radial * cos + rotation * sin) * inertia);
         let centrifugal =
             sin * offset_moment * (radial * radial + tangential * tangential + rotation * rotation);
-        (action.moment - spring + weight + turning - across - centrifugal) / self.inertia
+        moment + turning - across - centrifugal
     }
 
-    /// The moment of a blade on the hub about -e_t (up) less the aerodynamic moment about the hub's
-    /// centre, N.m: k (beta - beta_p) - M - h integral of a_z dm.
-    pub fn hub_moment_excess<S: Scalar>(
+    /// The integral of a_z dm over a blade whose flap rate changes by `acceleration` (rad/s2), N:
+    /// beta'' and beta'^2, Coriolis, w' x r, and w x (w x r).
+    fn vertical_inertia<S: Scalar>(
         &self,
-        hinge: &Hinge,
         flow: &DiscFlow<S>,
         position: &BladePosition<S>,
-        action: &Action<S>,
+        acceleration: S,
     ) -> S {
         let (sin, cos) = (position.flap_sin, position.flap_cos);
         let (radial, tangential) = flow.hub_rates(position.azimuth);
         let rate = position.flap.rate;
-        let first = self.first_moment();
-        let spring = action.spring * (position.flap.angle - hinge.precone);
-        if hinge.offset == 0.0 {
-            return spring - action.moment;
-        }
-        let acceleration = self.acceleration(hinge, flow, position, action);
-        // beta'' and beta'^2, Coriolis, w' x r, and w x (w x r), summed over the blade's mass.
-        let out = cos * first + hinge.offset * self.mass();
+        let first = self.mass.first_moment;
+        let out = cos * first + self.offset * self.mass.mass;
         let up = sin * first;
-        let inertia = (cos * acceleration - sin * rate * rate) * first
+        (cos * acceleration - sin * rate * rate) * first
             + tangential * 2.0 * rate * up
             + (flow.speed + flow.rotation) * radial * out
-            - up * (radial * radial + tangential * tangential);
-        spring - action.moment - inertia * hinge.offset
+            - up * (radial * radial + tangential * tangential)
     }
 
+    /// The moment of a flapping blade on the hub about -e_t (up) less the aerodynamic moment about
+    /// the hub's centre, N.m: k (beta - beta_p) - M - h integral of a_z dm.
+    pub fn hub_moment_excess<S: Scalar>(
+        &self,
+        flow: &DiscFlow<S>,
+        position: &BladePosition<S>,
+        action: &Action<S>,
+    ) -> S {
+        let spring = action.spring * (position.flap.angle - self.precone);
+        if self.offset == 0.0 {
+            return spring - action.moment;
+        }
+        let acceleration = self.acceleration(flow, position, action);
+        let inertia = self.vertical_inertia(flow, position, acceleration);
+        spring - action.moment - inertia * self.offset
+    }
+
+    /// The same for a rigid blade: the moment of its inertia on the hub about -e_t (up), as far as
+    /// it comes from the hub's roll and pitch, N.m.
+    pub fn rigid_moment<S: Scalar>(&self, flow: &DiscFlow<S>, position: &BladePosition<S>) -> S {
+        let on = |flow: &DiscFlow<S>| {
+            self.with_inertia(S::zero(), flow, position)
+                - self.vertical_inertia(flow, position, S::zero()) * self.offset
+        };
+        let steady = DiscFlow {
+            roll_rate: S::zero(),
+            pitch_rate: S::zero(),
+            ..*flow
+        };
+        on(flow) - on(&steady)
+    }
+}
+
+impl Freedom {
     /// An estimate of the rates of a blade's flapping, frequency plus damping, 1/s, with a lift
     /// slope of 2 pi: `chord` (m) is the largest of the blade, `speed` (m/s) that of the air at its
     /// tip.
@@ -138,12 +198,16 @@ impl Freedom {
         chord: f64,
         speed: f64,
     ) -> f64 {
-        let first = self.first_moment();
+        let BladeMass {
+            inertia,
+            first_moment,
+            ..
+        } = hinge.mass;
         let per_speed = PI * point.air.density * speed * chord * self.length * self.length;
         let stiffness = point.hinge_spring
-            + flow.rotation * flow.rotation * (self.inertia + hinge.offset * first)
-            + point.gravity.norm() * first
+            + flow.rotation * flow.rotation * (inertia + hinge.offset * first_moment)
+            + point.gravity.norm() * first_moment
             + self.pitch_flap.abs() * per_speed * speed / 2.0;
-        libm::sqrt(stiffness / self.inertia) + per_speed * self.length / 3.0 / self.inertia
+        libm::sqrt(stiffness / inertia) + per_speed * self.length / 3.0 / inertia
     }
 }

@@ -31,12 +31,12 @@ pub(crate) fn of<S: Scalar>(evaluation: &Evaluation<S>, loads: &DiscLoads<S>) ->
         inflow: inflow.out_of_wind(&in_wind, axes),
         ..State::default()
     };
-    if let Some(freedom) = evaluation.freedom {
+    if evaluation.freedom.is_some() {
         let blades = rates.flaps.iter_mut().zip(positions.iter());
         for ((rate, position), moment) in blades.zip(loads.hinge_moments) {
             let action = evaluation.action(moment);
             rate.angle = position.flap.rate;
-            rate.rate = freedom.acceleration(&rotor.models().hinge, flow, position, &action);
+            rate.rate = rotor.models().hinge.acceleration(flow, position, &action);
         }
     }
     if let Drive::Torque { torque, inertia } = point.drive {

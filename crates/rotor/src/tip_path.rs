@@ -33,9 +33,9 @@ impl<S: Scalar> TipPath<S> {
             longitudinal: S::zero(),
             lateral: S::zero(),
         };
-        let Some(freedom) = evaluation.freedom else {
+        if evaluation.freedom.is_none() {
             return path;
-        };
+        }
         path.coning = S::zero();
         let count = evaluation.positions.len() as f64;
         let speed = evaluation.point.speed;
@@ -47,7 +47,7 @@ impl<S: Scalar> TipPath<S> {
                 (angle, angle * -2.0 * cos, angle * -2.0 * sin)
             } else {
                 let action = evaluation.action(loads.hinge_moments[k]);
-                let acceleration = freedom.acceleration(hinge, &evaluation.flow, position, &action);
+                let acceleration = hinge.acceleration(&evaluation.flow, position, &action);
                 let second = acceleration / (speed * speed);
                 let first = rate / speed;
                 // A stopped rotor takes the other branch, too: its derivatives are infinite or not
