@@ -33,6 +33,7 @@
 //! weight of the blades belongs to the vehicle's weight.
 
 use super::{
+    air::STANDARD_GRAVITY,
     disc::{BladePosition, DiscFlow},
     operating_point::OperatingPoint,
     scalar::Scalar,
@@ -110,6 +111,11 @@ impl Hinge {
         let weight = (cos * action.gravity.z - sin * outwards) * self.mass.first_moment;
         let spring = action.spring * (position.flap.angle - self.precone);
         self.with_inertia(action.moment - spring + weight, flow, position) / self.mass.inertia
+    }
+
+    /// Frequency with which a blade swings about its hinge on a standing rotor, rad/s.
+    pub fn pendulum_frequency(&self) -> f64 {
+        libm::sqrt(self.mass.first_moment * STANDARD_GRAVITY / self.mass.inertia)
     }
 
     /// A moment about the hinge together with that of the inertia forces on a blade whose flap rate
