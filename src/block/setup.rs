@@ -15,7 +15,7 @@ use rotor::{
     Blades, Models, Rotor, Start,
     airfoil::{AirfoilError, Lift, SectionModel},
     compressibility::Compressibility,
-    flapping::{BladeMass, Freedom, Hinge},
+    flapping::{BladeMass, Freedom, Hinge, Stops},
     geometry::{self, BladeInertia, Elements, Geometry, GeometryError, RotorFileError},
     inflow::{Descent, ElementInflow, GroundEffect, Inflow, Skew},
     state::MAX_FLAPPING_BLADES,
@@ -62,6 +62,14 @@ pub enum SetupError {
         "models.groundEffect with models.inflow = annulusClosedForm, which holds in free air only; set another inflow model, or models.groundEffect to none"
     )]
     ClosedFormNearGround,
+    #[error(
+        "flapping.precone = {precone} rad lies beyond the stops of the blades, flapping.lowestAngle = {lowest} rad and flapping.highestAngle = {highest} rad; set it between them, or move the stops"
+    )]
+    PreconeBeyondStops {
+        precone: f64,
+        lowest: f64,
+        highest: f64,
+    },
     #[error(
         "flapping.inertia = {inertia} kg.m2 and flapping.lockNumber = {number} both give the inertia of the blades; set one of them to 0"
     )]
@@ -250,8 +258,21 @@ fn hinge(
     let freedom = values.booleans[boolean::FLAPPING__ENABLED].then(|| Freedom {
         pitch_flap: libm::tan(reals[real::FLAPPING__DELTA3]),
         length,
+        stops: Stops {
+            lowest: reals[real::FLAPPING__LOWEST_ANGLE],
+            highest: reals[real::FLAPPING__HIGHEST_ANGLE],
+        },
     });
-    if freedom.is_some() {
+    let precone = reals[real::FLAPPING__PRECONE];
+    if let Some(freedom) = freedom {
+        if freedom.stops.excess(precone) > 0.0 {
+            let Stops { lowest, highest } = freedom.stops;
+            return Err(SetupError::PreconeBeyondStops {
+                precone,
+                lowest,
+                highest,
+            });
+        }
         if geometry.blades as usize > MAX_FLAPPING_BLADES {
             let blades = geometry.blades;
             return Err(SetupError::TooManyFlappingBlades { blades });
@@ -265,7 +286,7 @@ fn hinge(
     }
     Ok(Hinge {
         offset,
-        precone: reals[real::FLAPPING__PRECONE],
+        precone,
         mass,
         freedom,
     })

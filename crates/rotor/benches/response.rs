@@ -11,7 +11,7 @@ use rotor::{
     Models, OperatingPoint, Rotor, Start, Workspace,
     air::Air,
     airfoil::Airfoil,
-    flapping::{BladeMass, Freedom, Hinge},
+    flapping::{BladeMass, Freedom, Hinge, Stops},
     geometry::{Elements, Geometry},
     inflow::Inflow,
 };
@@ -55,6 +55,7 @@ fn azimuth_step(criterion: &mut Criterion) {
             freedom: Some(Freedom {
                 pitch_flap: 0.0,
                 length: 0.762,
+                stops: Stops::default(),
             }),
             ..Hinge::default()
         },

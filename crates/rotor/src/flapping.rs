@@ -24,6 +24,23 @@
 //! equations (Goldstein 1980, "Classical Mechanics", eq. 5-39) for a flat disc. With one or two
 //! blades the moment varies twice per revolution about this mean.
 //!
+//! Beyond its droop and flap stops a blade is pushed back by a spring K that only pushes, with a
+//! damper whose strength grows from 0 with the depth, so that the moment is continuous (Hunt &
+//! Crossley 1975, J. Appl. Mech. 42, p. 440):
+//!
+//! ```text
+//! M_stop = K delta + C min(delta/delta_w, 1) delta' >= 0,    C = 2 sqrt(K I)
+//! K = S g/delta_w + (nu W)^2 I,    delta_w = 0.01 rad,    nu = 2.6
+//! ```
+//!
+//! delta is the depth beyond the stop. A blade that rests on its droop stop under its weight lies
+//! delta_w lower than the stop, and comes to rest there with critical damping. A blade that hits a
+//! stop of a turning rotor bends; the second term is the stiffness of the first bending mode of a
+//! hinged blade, whose frequency is about 2.6 times the rotor speed (Johnson 1980, ch. 9). A real
+//! stop is as stiff as the blade that rests on it, and K follows from the blade's inertia, so that
+//! the stops never need shorter steps than a few times the rate of the rotor or of a pendulum of
+//! the blade's length.
+//!
 //! Assumptions. The hub's velocity and angular velocity and the rotor speed change slowly enough
 //! that their derivatives act neither on the blades nor, by way of their inertia, on the hub. The
 //! hub feels each flapping blade through its spring and, at the offset, through the aerodynamic and
@@ -34,7 +51,7 @@
 
 use super::{
     air::STANDARD_GRAVITY,
-    disc::{BladePosition, DiscFlow},
+    disc::{BladePosition, DiscFlow, Flap},
     operating_point::OperatingPoint,
     scalar::Scalar,
 };
@@ -84,6 +101,58 @@ pub struct Freedom {
     pub pitch_flap: f64,
     /// Length of the blade outboard of the hinge, m, > 0.
     pub length: f64,
+    /// What limits the flapping.
+    pub stops: Stops,
+}
+
+/// The droop stop and the flap stop of a blade. By default there are none.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Stops {
+    /// Flap angle below which the droop stop pushes up, rad; negative infinity without one.
+    pub lowest: f64,
+    /// Flap angle above which the flap stop pushes down, rad; infinity without one.
+    pub highest: f64,
+}
+
+/// Depth to which the weight of a level blade presses it into a stop, rad.
+const DEPTH_UNDER_WEIGHT: f64 = 0.01;
+/// Frequency with which a blade bends on a stop, over the rotor speed.
+const BENDING_FREQUENCY: f64 = 2.6;
+/// Distance from a stop that counts as near, rad.
+const NEAR_STOP: f64 = 0.05;
+
+impl Default for Stops {
+    fn default() -> Self {
+        Self {
+            lowest: f64::NEG_INFINITY,
+            highest: f64::INFINITY,
+        }
+    }
+}
+
+impl Stops {
+    /// How far a flap angle (rad) lies beyond the nearer stop, rad; negative between the stops.
+    pub fn excess(&self, angle: f64) -> f64 {
+        (self.lowest - angle).max(angle - self.highest)
+    }
+
+    /// The moment of the stops on a blade, positive up, over its moment of inertia, 1/s2; none
+    /// between the stops. `frequency` is that of the blade on a stop, rad/s.
+    fn push<S: Scalar>(&self, flap: Flap<S>, frequency: impl FnOnce() -> S) -> Option<S> {
+        let against = |depth: S, inwards: S, frequency: S| {
+            let damping = (depth / DEPTH_UNDER_WEIGHT).at_most(1.0) * 2.0 * frequency;
+            (depth * frequency * frequency + damping * inwards).at_least(0.0)
+        };
+        if flap.angle.is_below(self.lowest) {
+            let depth = -(flap.angle - self.lowest);
+            Some(against(depth, -flap.rate, frequency()))
+        } else if flap.angle.is_above(self.highest) {
+            let depth = flap.angle - self.highest;
+            Some(-against(depth, flap.rate, frequency()))
+        } else {
+            None
+        }
+    }
 }
 
 /// What acts on a blade besides its own motion.
@@ -109,13 +178,47 @@ impl Hinge {
         let outwards =
             -action.gravity.x * position.azimuth.cos - action.gravity.y * position.azimuth.sin;
         let weight = (cos * action.gravity.z - sin * outwards) * self.mass.first_moment;
+        let held = self.spring(flow, position, action);
+        self.with_inertia(action.moment - held + weight, flow, position) / self.mass.inertia
+    }
+
+    /// The moment with which spring and stops hold a blade, positive down, N.m.
+    fn spring<S: Scalar>(
+        &self,
+        flow: &DiscFlow<S>,
+        position: &BladePosition<S>,
+        action: &Action<S>,
+    ) -> S {
         let spring = action.spring * (position.flap.angle - self.precone);
-        self.with_inertia(action.moment - spring + weight, flow, position) / self.mass.inertia
+        let frequency = || self.stop_frequency(flow.rotation);
+        let stops = self.freedom.map(|freedom| freedom.stops);
+        match stops.and_then(|stops| stops.push(position.flap, frequency)) {
+            Some(push) => spring - push * self.mass.inertia,
+            None => spring,
+        }
     }
 
     /// Frequency with which a blade swings about its hinge on a standing rotor, rad/s.
     pub fn pendulum_frequency(&self) -> f64 {
         libm::sqrt(self.mass.first_moment * STANDARD_GRAVITY / self.mass.inertia)
+    }
+
+    /// An estimate of the rate of a blade on a stop, frequency plus damping, 1/s, at a rotor speed
+    /// against the air, rad/s.
+    pub fn stop_rate(&self, rotation: f64) -> f64 {
+        3.0 * self.stop_frequency(rotation)
+    }
+
+    /// sqrt(K/I) of a stop at a rotor speed against the air, rad/s.
+    fn stop_frequency<S: Scalar>(&self, rotation: S) -> S {
+        let BladeMass {
+            inertia,
+            first_moment,
+            ..
+        } = self.mass;
+        let weight = first_moment * STANDARD_GRAVITY / (DEPTH_UNDER_WEIGHT * inertia);
+        let bending = rotation * BENDING_FREQUENCY;
+        (bending * bending + weight).sqrt()
     }
 
     /// A moment about the hinge together with that of the inertia forces on a blade whose flap rate
@@ -167,7 +270,7 @@ impl Hinge {
         position: &BladePosition<S>,
         action: &Action<S>,
     ) -> S {
-        let spring = action.spring * (position.flap.angle - self.precone);
+        let spring = self.spring(flow, position, action);
         if self.offset == 0.0 {
             return spring - action.moment;
         }
@@ -193,6 +296,13 @@ impl Hinge {
 }
 
 impl Freedom {
+    /// Whether any of the blades may meet a stop within a time, s.
+    pub fn may_meet_stop(&self, flaps: &[Flap], time: f64) -> bool {
+        flaps
+            .iter()
+            .any(|flap| self.stops.excess(flap.angle) > -(NEAR_STOP + flap.rate.abs() * time))
+    }
+
     /// An estimate of the rates of a blade's flapping, frequency plus damping, 1/s, with a lift
     /// slope of 2 pi: `chord` (m) is the largest of the blade, `speed` (m/s) that of the air at its
     /// tip.

@@ -1,5 +1,6 @@
 //! The states from which a rotor starts.
 
+mod balance;
 mod periodic;
 mod steady_inflow;
 mod unknowns;
@@ -22,7 +23,8 @@ use unknowns::Unknowns;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Start {
     /// In a periodic state, in which each blade repeats the motion of the one before it, or, with
-    /// loads averaged over one revolution, in a steady state.
+    /// loads averaged over one revolution, in a steady state. Blades of a rotor that is stopped or
+    /// turns very slowly are in balance where they are.
     Steady,
     /// Without induced velocity, the blades at the precone angle.
     Rest,
@@ -97,6 +99,9 @@ impl Rotor {
         } else {
             None
         };
+        if steps.is_none() {
+            state = balance::find(self, dual, &state, workspace)?;
+        }
         let unknowns = match steps {
             Some(_) => Unknowns::of_periodic_state(self, plain),
             None => Unknowns::of_inflow(self, 1.0),
@@ -115,8 +120,10 @@ impl Rotor {
         for (value, change) in state.inflow.iter_mut().zip(moves.inflow) {
             value.eps = change;
         }
-        for (flap, change) in state.flaps.iter_mut().zip(moves.flaps) {
-            (flap.angle.eps, flap.rate.eps) = (change.angle, change.rate);
+        if steps.is_some() {
+            for (flap, change) in state.flaps.iter_mut().zip(moves.flaps) {
+                (flap.angle.eps, flap.rate.eps) = (change.angle, change.rate);
+            }
         }
         Ok(state)
     }

@@ -10,7 +10,7 @@ use rotor::{
     Blades, Models, OperatingPoint, Rotor, State, Workspace,
     air::STANDARD_GRAVITY,
     disc::Flap,
-    flapping::{BladeMass, Freedom, Hinge},
+    flapping::{BladeMass, Freedom, Hinge, Stops},
     geometry::{Geometry, Rotation},
     inflow::{ElementInflow, Inflow, Skew},
 };
@@ -33,6 +33,7 @@ struct Build {
     inertia: f64,
     flaps: bool,
     blades_model: Blades,
+    stops: Stops,
 }
 
 impl Default for Build {
@@ -48,6 +49,7 @@ impl Default for Build {
             inertia: INERTIA,
             flaps: true,
             blades_model: Blades::Automatic,
+            stops: Stops::default(),
         }
     }
 }
@@ -60,6 +62,7 @@ impl Build {
         let freedom = Freedom {
             pitch_flap: self.pitch_flap,
             length,
+            stops: self.stops,
         };
         let models = Models {
             hinge: Hinge {
@@ -695,4 +698,138 @@ fn blades_of_a_stopped_rotor_fall_and_swing() {
         lowest > -PI - 1e-3,
         "and no higher than where it began: {lowest}"
     );
+}
+
+const STOPS: Stops = Stops {
+    lowest: -0.1,
+    highest: 0.2,
+};
+
+fn stopped(gravity: f64) -> OperatingPoint {
+    OperatingPoint {
+        speed: 0.0,
+        gravity: Vector3::new(0.0, 0.0, gravity),
+        ..hover(0.0)
+    }
+}
+
+/// The weight S g cos(beta) of a blade presses it 0.01 rad cos(beta) into the stop. The stop carries
+/// its moment to the hub.
+#[test]
+fn a_blade_rests_on_its_stop_under_its_weight() {
+    for (gravity, stop) in [(-STANDARD_GRAVITY, -0.1), (STANDARD_GRAVITY, 0.2)] {
+        let rotor = Build {
+            blades: 1,
+            stops: STOPS,
+            elements: 10,
+            ..Build::default()
+        }
+        .rotor();
+        let (state, loads) = steady(&rotor, &stopped(gravity));
+        let angle = state.flaps[0].angle;
+        let depth = 0.01 * angle.cos() * f64::signum(stop);
+        close(angle, stop + depth, 1e-12, "angle");
+        let weight = 1.5 * INERTIA * gravity * angle.cos();
+        close(loads.moment.y, weight, 1e-9, "moment on the hub");
+    }
+}
+
+/// beta'' of blade 1 at a flap angle and rate.
+fn acceleration(rotor: &Rotor, point: &OperatingPoint, angle: f64, rate: f64) -> f64 {
+    let mut state = State::default();
+    state.flaps[0] = Flap { angle, rate };
+    let mut workspace = Workspace::new(rotor);
+    rotor.rates(point, &state, &mut workspace).unwrap().flaps[0].rate
+}
+
+/// In next to no air: the moment begins at 0, whatever the speed of the impact, and the stop never
+/// pulls.
+#[test]
+fn a_stop_pushes_only_and_without_a_jump() {
+    let rotor = Build {
+        blades: 1,
+        stops: STOPS,
+        elements: 10,
+        ..Build::default()
+    }
+    .rotor();
+    let point = OperatingPoint {
+        air: air(1e-9),
+        ..stopped(0.0)
+    };
+    for (stop, out) in [(-0.1, -1.0), (0.2, 1.0)] {
+        for rate in [-5.0, 0.0, 5.0] {
+            let push = |depth: f64| {
+                let found = acceleration(&rotor, &point, stop + out * depth, out * rate);
+                assert!(found * out < 1e-9, "it pulls: {found}");
+                found.abs()
+            };
+            assert!(push(-1e-6) < 1e-9, "between the stops");
+            assert!(push(1e-9) < 1e-4, "a jump at {rate} rad/s");
+            if rate > 0.0 {
+                // K/I = 1.5 g/l/0.01 rad and C = 2 sqrt(K I).
+                let stiffness = 150.0 * STANDARD_GRAVITY;
+                let expected = stiffness * 0.02 + 2.0 * stiffness.sqrt() * rate;
+                close(push(0.02), expected, 1e-6 * expected, "spring and damper");
+            }
+        }
+    }
+}
+
+/// A blade that falls onto its droop stop comes to rest there, without jumping back to where it was.
+#[test]
+fn a_falling_blade_comes_to_rest_on_its_stop() {
+    let rotor = Build {
+        stops: STOPS,
+        elements: 10,
+        ..Build::default()
+    }
+    .rotor();
+    let point = stopped(-STANDARD_GRAVITY);
+    let mut workspace = Workspace::new(&rotor);
+    let mut state = State::default();
+    let (mut lowest, mut rebound, mut most) = (0.0_f64, -0.1_f64, 0.0_f64);
+    for _ in 0..400 {
+        let steps = rotor.stable_steps(&point, &state, 0.005);
+        most = most.max(steps);
+        for _ in 0..steps as u32 {
+            let next = rotor.step(|_| point, &state, 0.005 / steps, &mut workspace);
+            state = next.unwrap();
+        }
+        let angle = state.flaps[0].angle;
+        lowest = lowest.min(angle);
+        if lowest < -0.1 {
+            rebound = rebound.max(angle);
+        }
+    }
+    close(
+        state.flaps[0].angle,
+        -0.1 - 0.01 * 0.1_f64.cos(),
+        1e-4,
+        "rest",
+    );
+    assert!(lowest > -0.16 && rebound < -0.05, "{lowest} {rebound}");
+    assert!(most <= 2.0, "{most} steps");
+}
+
+/// Flapping between the stops has the bits of flapping without stops.
+#[test]
+fn stops_that_are_not_met_change_no_bit() {
+    let at = |stops: Stops| {
+        let rotor = Build {
+            stops,
+            elements: 10,
+            offset: 0.05,
+            ..Build::default()
+        }
+        .rotor();
+        steady(&rotor, &unsymmetrical())
+    };
+    let wide = Stops {
+        lowest: -0.4,
+        highest: 0.6,
+    };
+    let (with, without) = (at(wide), at(Stops::default()));
+    assert!(without.0.flaps[0].angle.abs() > 0.01);
+    assert_eq!(with, without);
 }
