@@ -1,7 +1,8 @@
 //! Values out of the block: the rotor's response to the present inputs, parameters and states.
 
 use super::{
-    BlockError, Fresh, RotorBlock, Stage,
+    BlockError, Fresh, Note, RotorBlock, Stage,
+    beyond_stops::BeyondStopsNotice,
     flight_condition::FlightCondition,
     integrate::Memory,
     outputs::write_response,
@@ -56,8 +57,9 @@ impl RotorBlock {
 
     /// Stores a rotor that was just made, and the notes from making it.
     pub(super) fn take_over(&mut self, rotor: Rotor, notes: Vec<String>) -> Arc<Rotor> {
-        self.notes.extend(notes);
+        self.notes.extend(notes.into_iter().map(Note::Event));
         self.outside_data = OutsideDataNotice::default();
+        self.beyond_stops = BeyondStopsNotice::default();
         Arc::clone(self.rotor.insert(Arc::new(rotor)))
     }
 
@@ -91,8 +93,10 @@ impl RotorBlock {
         }
         self.memory = memory;
         self.fresh = Fresh::All;
-        self.notes
-            .extend(self.outside_data.next(&rotor, &response.blade));
+        let outside = self.outside_data.next(&rotor, &response.blade);
+        self.notes.extend(outside.map(Note::Event));
+        let beyond = self.beyond_stops.next(&rotor, &self.memory.state);
+        self.notes.extend(beyond.map(Note::Warning));
         Ok(())
     }
 

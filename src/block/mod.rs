@@ -10,9 +10,10 @@
 //! * `model_exchange`, `state_vector`: states and derivatives for an importer that integrates
 //! * `derivative`: directional derivatives
 //! * `snapshot`: the block's state, saved and restored
-//! * `location`, `shown`, `outside_data`: file names, and texts for messages
+//! * `location`, `shown`, `outside_data`, `beyond_stops`: file names, and texts for messages
 
 mod airfoils;
+mod beyond_stops;
 mod co_simulation;
 mod computation;
 mod derivative;
@@ -40,6 +41,7 @@ pub use setup::SetupError;
 pub use snapshot::{Contradiction, Snapshot};
 pub use values::{Stage, ValueError, Values};
 
+use beyond_stops::BeyondStopsNotice;
 use integrate::Memory;
 use known_rates::KnownRates;
 use num_dual::Dual64;
@@ -75,6 +77,15 @@ pub enum BlockError {
     },
 }
 
+/// A sentence for the log.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Note {
+    /// For users who want to know what happens.
+    Event(String),
+    /// Something may be wrong.
+    Warning(String),
+}
+
 /// Which computed values belong to the present inputs, parameters and states.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 enum Fresh {
@@ -105,8 +116,9 @@ pub struct RotorBlock {
     /// The flow state as last computed. The variable changes at events only.
     flow_state: i32,
     /// Sentences for the log since the last call of `take_notes`.
-    notes: Vec<String>,
+    notes: Vec<Note>,
     outside_data: OutsideDataNotice,
+    beyond_stops: BeyondStopsNotice,
 }
 
 impl RotorBlock {
@@ -127,6 +139,7 @@ impl RotorBlock {
             fresh: Fresh::Nothing,
             notes: Vec::new(),
             outside_data: OutsideDataNotice::default(),
+            beyond_stops: BeyondStopsNotice::default(),
         }
     }
 
@@ -141,8 +154,8 @@ impl RotorBlock {
     }
 
     /// Returns the sentences for the log that have come up since the last call: the files that
-    /// were read, and flow outside the data of an airfoil file.
-    pub fn take_notes(&mut self) -> Vec<String> {
+    /// were read, flow outside the data of an airfoil file, and blades far beyond their stops.
+    pub fn take_notes(&mut self) -> Vec<Note> {
         std::mem::take(&mut self.notes)
     }
 }

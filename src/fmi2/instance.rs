@@ -7,7 +7,7 @@ use super::{
     types::{fmi2Component, fmi2Status},
 };
 use crate::block::{
-    BlockError, PerVariable, RotorBlock,
+    BlockError, Note, PerVariable, RotorBlock,
     variables::{STRINGS, StringRef},
 };
 use serde::{Deserialize, Serialize};
@@ -81,6 +81,9 @@ impl Instance {
 /// Runs the body of a function on its instance. Refuses a call without an instance or in the wrong
 /// state, catches panics, and logs the outcome.
 ///
+/// A warning of the block is logged with fmi2Warning, but the call returns fmi2OK: many importers
+/// end the simulation at any other answer.
+///
 /// # Safety
 /// `component` is null or comes from fmi2Instantiate, is not freed, and no other call on it runs.
 pub unsafe fn call(
@@ -122,19 +125,18 @@ pub unsafe fn call(
     };
     // SAFETY: as above; the logger has not been called yet.
     let notes = unsafe { (*instance).block.take_notes() };
-    lines.splice(0..0, notes.into_iter().map(|note| (Category::Events, note)));
+    let notes = notes.into_iter().map(|note| match note {
+        Note::Event(text) => (Category::Events, text),
+        Note::Warning(text) => (Category::Warning, prefixed(function, &text)),
+    });
+    lines.splice(0..0, notes);
     if !lines.is_empty() {
         // SAFETY: as above. The copy of the logger is used, not the instance: what the importer's
         // function does with the instance, freeing it included, harms nothing here.
         let logger = unsafe { (*instance).logger.clone() };
         let log = || {
             for (category, text) in &lines {
-                let status = if *category == Category::Events {
-                    fmi2Status::fmi2OK
-                } else {
-                    status
-                };
-                logger.log(status, *category, text);
+                logger.log(category.status(), *category, text);
             }
         };
         // A panic in the logger cannot be logged.

@@ -19,6 +19,17 @@ pub enum Category {
     Events = 2,
 }
 
+impl Category {
+    /// The status that goes with a message.
+    pub fn status(self) -> fmi2Status {
+        match self {
+            Self::Error => fmi2Status::fmi2Error,
+            Self::Warning => fmi2Status::fmi2Warning,
+            Self::Events => fmi2Status::fmi2OK,
+        }
+    }
+}
+
 /// The importer's logger as copied at instantiation.
 ///
 /// Errors and warnings are always logged, unless fmi2SetDebugLogging chose other categories;
