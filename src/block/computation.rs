@@ -52,6 +52,8 @@ impl RotorBlock {
             return Ok(Arc::clone(rotor));
         }
         let (rotor, notes) = setup::rotor(&self.values, &self.resources)?;
+        let unused = setup::unused_lock_number(&self.values);
+        self.notes.extend(unused.map(Note::Warning));
         Ok(self.take_over(rotor, notes))
     }
 

@@ -70,10 +70,6 @@ pub enum SetupError {
         lowest: f64,
         highest: f64,
     },
-    #[error(
-        "flapping.inertia = {inertia} kg.m2 and flapping.lockNumber = {number} both give the inertia of the blades; set one of them to 0"
-    )]
-    TwoInertias { inertia: f64, number: f64 },
     #[error("{name} = {value}, which is not the number of a choice; set one of its choices")]
     Choice { name: &'static str, value: i32 },
 }
@@ -254,7 +250,7 @@ fn hinge(
     let reals = &values.reals;
     let offset = reals[real::FLAPPING__HINGE_OFFSET] * geometry.radius;
     let length = geometry.radius - offset;
-    let mass = BladeMass::rod(blade_inertia(values, geometry)?, length);
+    let mass = BladeMass::rod(blade_inertia(values, geometry), length);
     let freedom = values.booleans[boolean::FLAPPING__ENABLED].then(|| Freedom {
         pitch_flap: libm::tan(reals[real::FLAPPING__DELTA3]),
         length,
@@ -294,16 +290,28 @@ fn hinge(
 
 /// The moment of inertia of one blade about its hinge, kg.m2: from the parameters, otherwise from
 /// the rotor file, otherwise in proportion to the default rotor's.
-fn blade_inertia(values: &Values, geometry: &Geometry) -> Result<f64, SetupError> {
+fn blade_inertia(values: &Values, geometry: &Geometry) -> f64 {
     let inertia = values.reals[real::FLAPPING__INERTIA];
     let number = values.reals[real::FLAPPING__LOCK_NUMBER];
-    let known_from = match (inertia > 0.0, number > 0.0) {
-        (true, true) => return Err(SetupError::TwoInertias { inertia, number }),
-        (true, false) => BladeInertia::Moment(inertia),
-        (false, true) => BladeInertia::LockNumber(number),
-        (false, false) => geometry.inertia.unwrap_or(BladeInertia::LikeDefaultRotor),
+    let known_from = if inertia > 0.0 {
+        BladeInertia::Moment(inertia)
+    } else if number > 0.0 {
+        BladeInertia::LockNumber(number)
+    } else {
+        geometry.inertia.unwrap_or(BladeInertia::LikeDefaultRotor)
     };
-    Ok(known_from.moment(geometry))
+    known_from.moment(geometry)
+}
+
+/// A warning if the inertia of the blades is given twice.
+pub fn unused_lock_number(values: &Values) -> Option<String> {
+    let inertia = values.reals[real::FLAPPING__INERTIA];
+    let number = values.reals[real::FLAPPING__LOCK_NUMBER];
+    (inertia > 0.0 && number > 0.0).then(|| {
+        format!(
+            "flapping.inertia = {inertia} kg.m2 and flapping.lockNumber = {number} both give the inertia of the blades, and flapping.inertia is used; set one of them to 0"
+        )
+    })
 }
 
 /// How the rotor starts.
@@ -332,7 +340,7 @@ pub fn choice<T>(
 
 #[cfg(test)]
 mod tests {
-    use super::super::{BlockError, RotorBlock, flight_condition::FlightCondition};
+    use super::super::{BlockError, Note, RotorBlock, flight_condition::FlightCondition};
     use super::*;
     use std::f64::consts::PI;
 
@@ -378,8 +386,10 @@ mod tests {
         let mut block = flapping_block("")?;
         let references = [real::FLAPPING__INERTIA, real::FLAPPING__LOCK_NUMBER];
         block.set_reals(&references, &[0.02, 8.0])?;
-        let error = block.rotor().unwrap_err().to_string();
-        assert!(error.contains("set one of them to 0"), "{error}");
+        assert_eq!(inertia(&mut block)?, 0.02);
+        let notes = block.take_notes();
+        let is_warning = |note: &Note| matches!(note, Note::Warning(text) if text.contains("flapping.inertia is used"));
+        assert!(notes.iter().any(is_warning), "{notes:?}");
         Ok(())
     }
 
