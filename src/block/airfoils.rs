@@ -1,20 +1,40 @@
 //! Reads the airfoil files of a rotor.
 
-use super::{location::resolve, setup::SetupError, values::Values, variables::string};
+use super::{
+    files::{FileHash, ReadFile},
+    location::resolve,
+    setup::SetupError,
+    values::Values,
+    variables::string,
+};
 use rotor::{
     airfoil::{Airfoil, Lift},
     geometry::Geometry,
 };
-use std::path::Path;
+use std::{fs, path::Path};
+
+/// The airfoils in the FMU with the names by which `airfoil.file` finds them; those that cannot be
+/// read are left out.
+pub fn shipped(resources: &Path) -> Vec<(String, Airfoil)> {
+    let entries = fs::read_dir(resources.join("airfoils"))
+        .into_iter()
+        .flatten();
+    let airfoils = entries.flatten().filter_map(|entry| {
+        let name = entry.file_name().into_string().ok()?;
+        let airfoil = Airfoil::read(&entry.path()).ok()?;
+        Some((format!("airfoils/{name}"), airfoil))
+    });
+    airfoils.collect()
+}
 
 /// Reads the airfoils of a geometry, in its order. A station without an airfoil of its own has the
-/// airfoil of the parameter `airfoil.file`. `notes` gets a sentence for every file.
+/// airfoil of the parameter `airfoil.file`. `files` gets every file.
 pub fn read_airfoils(
     values: &Values,
     geometry: &Geometry,
     lift: Lift,
     resources: &Path,
-    notes: &mut Vec<String>,
+    files: &mut Vec<ReadFile>,
 ) -> Result<Vec<Airfoil>, SetupError> {
     let mut airfoils = Vec::with_capacity(geometry.airfoils.len());
     for station in &geometry.airfoils {
@@ -25,7 +45,7 @@ pub fn read_airfoils(
             &values.strings[string::AIRFOIL__FILE]
         };
         let path = resolve(resources, "airfoils", name);
-        let airfoil = Airfoil::read(&path).map_err(|cause| {
+        let (airfoil, hash) = Airfoil::read_with_hash(&path).map_err(|cause| {
             if has_own {
                 SetupError::StationAirfoil {
                     name: values.strings[string::GEOMETRY__FILE].clone(),
@@ -49,11 +69,14 @@ pub fn read_airfoils(
                 },
             });
         }
-        notes.push(format!(
-            "read airfoil {:?} from {}",
-            airfoil.name(),
-            path.display()
-        ));
+        files.push(ReadFile {
+            content: FileHash {
+                name: name.to_owned(),
+                hash,
+            },
+            path,
+            what: format!("read airfoil {:?}", airfoil.name()),
+        });
         airfoils.push(airfoil);
     }
     Ok(airfoils)

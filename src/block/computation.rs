@@ -1,12 +1,14 @@
 //! Values out of the block: the rotor's response to the present inputs, parameters and states.
 
 use super::{
-    BlockError, Fresh, Note, RotorBlock, Stage,
+    BlockError, Fresh, Note, RotorBlock, Stage, airfoils,
     beyond_stops::BeyondStopsNotice,
+    files::{self, FileHash, ReadFile},
     flight_condition::FlightCondition,
     integrate::Memory,
     outputs::write_response,
     outside_data::OutsideDataNotice,
+    plausibility::{self, Initialized},
     references::Reals,
     setup,
     shown::shown,
@@ -16,10 +18,24 @@ use super::{
 use rotor::{Rotor, SolveError};
 use std::sync::Arc;
 
+/// The warning where the search for a steady start fails.
+const NO_STEADY_START: &str = "no state was found in which inflow and flapping repeat themselves; the simulation starts from \
+     the inflow of momentum theory with the blades at the precone angle, and settles by itself (set initialization to rest to \
+     start without inflow and without this search)";
+
 impl RotorBlock {
-    /// Ends the configuration, after which fixed parameters cannot change.
+    /// Ends the configuration, after which fixed parameters cannot change. Warns of implausible
+    /// values.
     pub fn start(&mut self) -> Result<(), BlockError> {
         self.update()?;
+        let start = Initialized {
+            rotor: &*self.rotor()?,
+            values: &self.values,
+            point: &FlightCondition::new(&self.values)?.point,
+            shipped: &|| airfoils::shipped(&self.resources),
+        };
+        let warnings = plausibility::warnings(&start);
+        self.notes.extend(warnings.into_iter().map(Note::Warning));
         self.stage = Stage::Running;
         Ok(())
     }
@@ -39,11 +55,21 @@ impl RotorBlock {
                 let azimuth_step = values.reals[real::NUMERICS__AZIMUTH_STEP];
                 let rotor = self.rotor()?;
                 let workspace = &mut self.workspace;
-                let state = rotor.start(&condition.point, start, azimuth_step, workspace);
-                Memory::starting(state.map_err(|e| self.unsolved(e))?)
+                let started = rotor.start(&condition.point, start, azimuth_step, workspace);
+                let started = started.map_err(|e| self.unsolved(e))?;
+                self.note_start(started.is_found);
+                Memory::starting(started.state)
             }
         };
         self.publish(&condition, memory)
+    }
+
+    /// Warns once if the start has no steady or periodic state.
+    fn note_start(&mut self, is_found: bool) {
+        if !is_found && self.has_start {
+            self.notes.push(Note::Warning(NO_STEADY_START.to_owned()));
+        }
+        self.has_start = is_found;
     }
 
     /// The rotor of the present parameters, which is made if there is none.
@@ -51,18 +77,29 @@ impl RotorBlock {
         if let Some(rotor) = &self.rotor {
             return Ok(Arc::clone(rotor));
         }
-        let (rotor, notes) = setup::rotor(&self.values, &self.resources)?;
+        let (rotor, files) = setup::rotor(&self.values, &self.resources)?;
         let unused = setup::unused_lock_number(&self.values);
         self.notes.extend(unused.map(Note::Warning));
-        Ok(self.take_over(rotor, notes))
+        Ok(self.take_over(rotor, files))
     }
 
-    /// Stores a rotor that was just made, and the notes from making it.
-    pub(super) fn take_over(&mut self, rotor: Rotor, notes: Vec<String>) -> Arc<Rotor> {
-        self.notes.extend(notes.into_iter().map(Note::Event));
+    /// Stores a rotor that was just made, and the files from which it was. Warns of files that are
+    /// not those of the state that was restored before.
+    pub(super) fn take_over(&mut self, rotor: Rotor, files: Vec<ReadFile>) -> Arc<Rotor> {
+        let notes = files.iter().map(|file| Note::Event(file.note()));
+        self.notes.extend(notes);
+        self.files = files;
+        let saved = std::mem::take(&mut self.saved_files);
+        self.compare_files(&saved);
         self.outside_data = OutsideDataNotice::default();
         self.beyond_stops = BeyondStopsNotice::default();
         Arc::clone(self.rotor.insert(Arc::new(rotor)))
+    }
+
+    /// Warns of files of the rotor whose content differs from that in a saved state.
+    pub(super) fn compare_files(&mut self, saved: &[FileHash]) {
+        let changes = files::changes(saved, &self.files);
+        self.notes.extend(changes.into_iter().map(Note::Warning));
     }
 
     /// Computes the outputs in a flight condition. If all are finite, they and the states in

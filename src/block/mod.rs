@@ -10,13 +10,15 @@
 //! * `model_exchange`, `state_vector`: states and derivatives for an importer that integrates
 //! * `derivative`: directional derivatives
 //! * `snapshot`: the block's state, saved and restored
-//! * `location`, `shown`, `outside_data`, `beyond_stops`: file names, and texts for messages
+//! * `location`, `files`: where files are, and whether they have changed
+//! * `shown`, `outside_data`, `plausibility`, `beyond_stops`: texts for messages
 
 mod airfoils;
 mod beyond_stops;
 mod co_simulation;
 mod computation;
 mod derivative;
+mod files;
 mod flight_condition;
 mod integrate;
 mod known_rates;
@@ -24,6 +26,7 @@ mod location;
 mod model_exchange;
 mod outputs;
 mod outside_data;
+mod plausibility;
 mod ramp;
 mod references;
 mod setting;
@@ -42,6 +45,7 @@ pub use snapshot::{Contradiction, Snapshot};
 pub use values::{Stage, ValueError, Values};
 
 use beyond_stops::BeyondStopsNotice;
+use files::{FileHash, ReadFile};
 use integrate::Memory;
 use known_rates::KnownRates;
 use num_dual::Dual64;
@@ -103,6 +107,10 @@ pub struct RotorBlock {
     resources: PathBuf,
     /// None until the rotor is needed, and after a change of a parameter that defines it.
     rotor: Option<Arc<Rotor>>,
+    /// The files from which `rotor` was made.
+    files: Vec<ReadFile>,
+    /// The files of a state that was restored before its rotor was needed.
+    saved_files: Vec<FileHash>,
     workspace: Workspace,
     known_rates: KnownRates,
     /// For directional derivatives; empty until the first of them.
@@ -110,6 +118,8 @@ pub struct RotorBlock {
     /// The states of the rotor, and the grid point from which they were integrated. `values` holds
     /// the states as well.
     memory: Memory,
+    /// Whether the last start that was computed is the one that was asked for.
+    has_start: bool,
     /// How the inputs move during the next step.
     ramp: Ramp,
     fresh: Fresh,
@@ -131,10 +141,13 @@ impl RotorBlock {
             stage: Stage::Configuring,
             resources,
             rotor: None,
+            files: Vec::new(),
+            saved_files: Vec::new(),
             workspace: Workspace::default(),
             known_rates: KnownRates::default(),
             dual_workspace: Workspace::default(),
             memory: Memory::default(),
+            has_start: true,
             ramp: Ramp::default(),
             fresh: Fresh::Nothing,
             notes: Vec::new(),
@@ -154,7 +167,8 @@ impl RotorBlock {
     }
 
     /// Returns the sentences for the log that have come up since the last call: the files that
-    /// were read, flow outside the data of an airfoil file, and blades far beyond their stops.
+    /// were read, files that have changed since a state was saved, implausible values, flow outside
+    /// the data of an airfoil file, and blades far beyond their stops.
     pub fn take_notes(&mut self) -> Vec<Note> {
         std::mem::take(&mut self.notes)
     }

@@ -80,10 +80,17 @@ impl RotorBlock {
         self.invalidate(false);
     }
 
+    /// The rotor is made again when it is needed, from the files as they are then.
+    pub(super) fn forget_rotor(&mut self) {
+        self.rotor = None;
+        self.files.clear();
+        self.saved_files.clear();
+    }
+
     fn invalidate(&mut self, rotor_changes: bool) {
         self.fresh = Fresh::Nothing;
         if rotor_changes {
-            self.rotor = None;
+            self.forget_rotor();
         }
     }
 }

@@ -3,6 +3,7 @@
 
 use super::{
     airfoils::read_airfoils,
+    files::{FileHash, ReadFile},
     location::resolve,
     values::Values,
     variables::{
@@ -74,33 +75,38 @@ pub enum SetupError {
     Choice { name: &'static str, value: i32 },
 }
 
-/// The rotor that the parameters describe, and a sentence for every file that was read.
-pub fn rotor(values: &Values, resources: &Path) -> Result<(Rotor, Vec<String>), SetupError> {
-    let mut notes = Vec::new();
-    let geometry = geometry(values, resources, &mut notes)?;
+/// The rotor that the parameters describe, and every file that was read.
+pub fn rotor(values: &Values, resources: &Path) -> Result<(Rotor, Vec<ReadFile>), SetupError> {
+    let mut files = Vec::new();
+    let geometry = geometry(values, resources, &mut files)?;
     let section = section(values)?;
-    let airfoils = read_airfoils(values, &geometry, section.lift, resources, &mut notes)?;
+    let airfoils = read_airfoils(values, &geometry, section.lift, resources, &mut files)?;
     // The range of the variable keeps the number of elements positive.
     let count = values.integers[integer::NUMERICS__ELEMENTS].max(1) as usize;
     let elements = Elements::new(&geometry, count);
     let models = models(values, &geometry, &elements, section)?;
-    Ok((Rotor::new(geometry, elements, airfoils, models), notes))
+    Ok((Rotor::new(geometry, elements, airfoils, models), files))
 }
 
 /// The geometry in the rotor file or, without one, that of the geometry parameters.
 fn geometry(
     values: &Values,
     resources: &Path,
-    notes: &mut Vec<String>,
+    files: &mut Vec<ReadFile>,
 ) -> Result<Geometry, SetupError> {
     let name = values.strings[string::GEOMETRY__FILE].as_str();
     if !name.is_empty() {
         let path = resolve(resources, "rotors", name);
-        let geometry = Geometry::read(&path).map_err(|cause| SetupError::RotorFile {
-            name: name.to_owned(),
-            cause,
-        })?;
-        notes.push(format!("read the rotor's geometry from {}", path.display()));
+        let name = name.to_owned();
+        let (geometry, hash) = match Geometry::read_with_hash(&path) {
+            Ok(read) => read,
+            Err(cause) => return Err(SetupError::RotorFile { name, cause }),
+        };
+        files.push(ReadFile {
+            content: FileHash { name, hash },
+            path,
+            what: "read the rotor's geometry".to_owned(),
+        });
         return Ok(geometry);
     }
     let mut geometry = Geometry::linear(

@@ -2,6 +2,7 @@
 
 use super::{
     BlockError, Fresh, RotorBlock,
+    files::FileHash,
     integrate::{LONGEST_CELL, Memory, Since},
     ramp::Slopes,
     setup,
@@ -14,7 +15,8 @@ use rotor::{Drive, OperatingPoint, State, air::Air};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// A copy of what a block knows, without its rotor, which follows from the parameters.
+/// A copy of what a block knows, without its rotor, which follows from the parameters and from the
+/// files that they name. Hashes of these files tell whether they have changed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Snapshot {
     values: Values,
@@ -26,6 +28,8 @@ pub struct Snapshot {
     since: Option<GridPoint>,
     fresh: Fresh,
     flow_state: i32,
+    /// Of the rotor; empty if it has not been made yet.
+    files: Vec<FileHash>,
 }
 
 /// Why a deserialized snapshot was not written by a block.
@@ -44,22 +48,39 @@ impl RotorBlock {
             since: self.memory.since.map(GridPoint),
             fresh: self.fresh,
             flow_state: self.flow_state,
+            files: if self.rotor.is_some() {
+                self.files.iter().map(|file| file.content.clone()).collect()
+            } else {
+                self.saved_files.clone()
+            },
         }
     }
 
     /// Continues from a copy, which may be another block's. If its fixed parameters differ from
     /// this block's, the rotor is built again from the files that they name; if that fails, nothing
     /// has changed.
+    ///
+    /// A file whose content is not that of the copy is a warning in the notes, now or, before
+    /// initialisation, when the rotor is built. It is no error: by the FMI standard the call is
+    /// legal, and a user may have improved the file on purpose. But without a word the simulation
+    /// would continue with other loads.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), BlockError> {
         let is_same = have_equal_shape(&self.values, &snapshot.values);
         if snapshot.stage == Stage::Configuring {
             // As before initialisation, the rotor is built when it is needed.
             if !is_same {
-                self.rotor = None;
+                self.forget_rotor();
             }
         } else if !is_same || self.rotor.is_none() {
-            let (rotor, notes) = setup::rotor(&snapshot.values, &self.resources)?;
-            self.take_over(rotor, notes);
+            let (rotor, files) = setup::rotor(&snapshot.values, &self.resources)?;
+            // Those of a state that was restored before this one do not count.
+            self.saved_files.clear();
+            self.take_over(rotor, files);
+        }
+        if self.rotor.is_some() {
+            self.compare_files(&snapshot.files);
+        } else {
+            self.saved_files.clone_from(&snapshot.files);
         }
         self.values.clone_from(&snapshot.values);
         self.stage = snapshot.stage;

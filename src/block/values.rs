@@ -1,6 +1,7 @@
 //! The values of all variables, and the rules under which they may be set.
 
 use super::{
+    plausibility::in_degrees,
     ramp::Slopes,
     references::{
         BooleanRef, Booleans, IntegerRef, Integers, Names, RealRef, Reals, Reference, StringRef,
@@ -29,12 +30,13 @@ pub enum ValueError {
         value: f64,
         kept: f64,
     },
-    #[error("{name} = {value} is out of range; set a value from {min} to {max} (it keeps {kept})")]
+    #[error("{name} = {value} is out of range{hint}; set a value from {range} (it keeps {kept})")]
     OutOfRange {
         name: &'static str,
         value: String,
-        min: String,
-        max: String,
+        /// Empty, or the value that was probably meant.
+        hint: String,
+        range: String,
         kept: String,
     },
     #[error("{name} = {value} is not allowed; set one of {choices} (it keeps {kept})")]
@@ -117,6 +119,16 @@ fn may_set<T>(
     }
 }
 
+/// A hint for an angle that would be in its range if it had been given in degrees.
+fn degrees(variable: &Variable<f64>, value: f64) -> String {
+    let is_plausible = (variable.min..=variable.max).contains(&value.to_radians());
+    if variable.unit == "rad" && is_plausible {
+        format!(" (degrees? {})", in_degrees(value))
+    } else {
+        String::new()
+    }
+}
+
 impl Values {
     /// The value of a Real variable.
     pub fn real(&self, name: impl Names<RealRef>) -> Result<f64, ValueError> {
@@ -166,8 +178,8 @@ impl Values {
                 return Err(ValueError::OutOfRange {
                     name,
                     value: unit(*value),
-                    min: shown(variable.min),
-                    max: unit(variable.max),
+                    hint: degrees(variable, *value),
+                    range: format!("{} to {}", shown(variable.min), unit(variable.max)),
                     kept: unit(kept),
                 });
             }
@@ -223,8 +235,8 @@ impl Values {
                 return Err(ValueError::OutOfRange {
                     name,
                     value: value.to_string(),
-                    min: variable.min.to_string(),
-                    max: variable.max.to_string(),
+                    hint: String::new(),
+                    range: format!("{} to {}", variable.min, variable.max),
                     kept: kept.to_string(),
                 });
             }
@@ -331,6 +343,28 @@ mod tests {
                 .unwrap_err();
             assert!(error.to_string().contains(part), "{error}");
             assert_eq!(values, before);
+        }
+        for (reference, bad, part) in [
+            (
+                real::COLLECTIVE,
+                8.0,
+                "collective = 8 rad is out of range (degrees? 8 deg = 0.1396 rad); set",
+            ),
+            (
+                real::GEOMETRY__TWIST,
+                -12.5,
+                "(degrees? -12.5 deg = -0.2182 rad)",
+            ),
+            (real::COLLECTIVE, 1e300, "1e300 rad is out of range; set"),
+            (
+                real::FLAPPING__PRECONE,
+                45.0,
+                "45 rad is out of range; set a value from -0.5",
+            ),
+        ] {
+            let error = values.set_reals(Stage::Configuring, &[reference], &[bad]);
+            let error = error.unwrap_err().to_string();
+            assert!(error.contains(part), "{error}");
         }
         let error = values.set_integers(Stage::Configuring, &[integer::MODELS__INFLOW], &[99]);
         let error = error.unwrap_err().to_string();

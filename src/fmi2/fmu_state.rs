@@ -115,7 +115,8 @@ pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, state: *mut fmi2FMUst
     unsafe { call(c, Function::fmi2GetFMUstate, body) }
 }
 
-/// The state may come from another instance of this FMU.
+/// The state may come from another instance of this FMU. If a file of its rotor has changed since
+/// then, a warning is logged, and the call succeeds.
 ///
 /// # Safety
 /// As in the standard: `state` comes from fmi2GetFMUstate or fmi2DeSerializeFMUstate and was not

@@ -20,7 +20,7 @@ use crate::block::{Contradiction, Stage, variables::GUID};
 use thiserror::Error;
 
 const MAGIC: [u8; 8] = *b"HelRotor";
-const VERSION: u32 = 2;
+const VERSION: u32 = 3;
 const HEAD: usize = MAGIC.len() + 4 + GUID.len() + 8;
 const CHECKSUM: usize = 4;
 

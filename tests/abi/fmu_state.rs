@@ -4,11 +4,11 @@
 use crate::support::{
     Creation, Fmu, Instance,
     c::{self, Status},
-    fmu::uri,
+    fmu::{scratch, uri},
     instance::{State, bits, reference},
 };
 use helicopter_rotor::block::variables::{BOOLEANS, INTEGERS, REALS, STATES, STRINGS};
-use std::ptr;
+use std::{fs, ptr};
 
 /// A rotor with everything that can have a memory, or nothing.
 #[derive(Clone, Copy, Debug)]
@@ -327,9 +327,9 @@ fn the_rotor_follows_the_fixed_parameters_of_the_state_at_once() {
 /// on.
 #[test]
 fn a_state_with_a_file_that_is_missing_is_refused_and_nothing_changes() {
-    let file = crate::support::fmu::scratch().join("fmu-state.polar");
+    let file = scratch().join("fmu-state.polar");
     let resources = Fmu::shared().resources();
-    std::fs::copy(resources.join("airfoils/naca0015.polar"), &file).unwrap();
+    fs::copy(resources.join("airfoils/naca0015.polar"), &file).unwrap();
     let source = Instance::new();
     let name = uri(&file);
     assert_eq!(source.set_string("airfoil.file", &name), c::OK);
@@ -337,7 +337,7 @@ fn a_state_with_a_file_that_is_missing_is_refused_and_nothing_changes() {
     source.initialize();
     assert_eq!(source.step(0.0, 0.01), c::OK);
     let state = source.state();
-    std::fs::remove_file(&file).unwrap();
+    fs::remove_file(&file).unwrap();
 
     let instance = in_flight(ROTOR);
     let before = seen(&instance);
@@ -440,4 +440,94 @@ fn a_state_is_a_copy() {
     assert_eq!(state.serialize(), bytes);
     assert_eq!(instance.set_state(&state), c::OK);
     assert_eq!(seen(&instance), before);
+}
+
+/// The warnings with which a state is set on a new instance. Each names the file and is logged with
+/// fmi2Warning, but the call succeeds.
+fn warnings_of_a_new_instance(bytes: &[u8]) -> (Vec<String>, Instance<'static>) {
+    let instance = Instance::new();
+    let state = instance.deserialize(bytes).unwrap();
+    assert_eq!(instance.set_state(&state), c::OK);
+    drop(state);
+    let log = instance.take_log().into_iter();
+    let warnings = log.map(|line| {
+        assert_eq!(line.status, c::WARNING, "{line:?}");
+        assert_eq!(line.category, "logStatusWarning", "{line:?}");
+        line.message
+    });
+    (warnings.collect(), instance)
+}
+
+/// Otherwise the simulation would continue with another drag or another blade without a word.
+#[test]
+fn a_file_that_has_changed_since_the_state_was_taken_is_named() {
+    let folder = scratch().join("changed-files");
+    fs::create_dir_all(&folder).unwrap();
+    let (airfoil, rotor) = (folder.join("x.polar"), folder.join("x.toml"));
+    let polar = "polar 1\nreynolds 5e5\n-180 0 0.03\n0 0 0.01\n20 1 0.02\n180 0 0.03\n";
+    let shape = "numberOfBlades = 2\nradius = 1.0\nstation = [\n{ r = 0.2, chord = 0.1 },\n{ r = 1.0, chord = 0.1 },\n]\n";
+    let write = |polar: &str, shape: &str| {
+        fs::write(&airfoil, polar).unwrap();
+        fs::write(&rotor, shape).unwrap();
+    };
+    write(polar, shape);
+    let instance = Instance::new();
+    for (name, file) in [("airfoil.file", &airfoil), ("geometry.file", &rotor)] {
+        let file = file.to_str().unwrap();
+        assert_eq!(instance.set_string(name, file), c::OK);
+    }
+    instance.begin_initialization();
+    instance.real("thrust");
+    let initializing = instance.state().serialize();
+    assert_eq!(instance.exit_initialization(), c::OK);
+    assert_eq!(instance.step(0.0, 0.01), c::OK);
+    instance.take_log();
+    let running = instance.state().serialize();
+    assert_eq!(warnings_of_a_new_instance(&running).0, [""; 0]);
+
+    for (new_polar, new_shape, changed) in [
+        (
+            polar.replace("0.02\n", "0.05\n"),
+            shape.to_owned(),
+            vec![&airfoil],
+        ),
+        (polar.to_owned(), shape.replace("0.2", "0.3"), vec![&rotor]),
+        (
+            polar.replace("20 1 ", "20 2 "),
+            shape.replace("0.2", "0.3"),
+            vec![&rotor, &airfoil],
+        ),
+    ] {
+        write(&new_polar, &new_shape);
+        let expect = |warnings: &[String]| {
+            assert_eq!(warnings.len(), changed.len(), "{warnings:?}");
+            for (warning, file) in warnings.iter().zip(&changed) {
+                let named = format!("{} has changed", file.display());
+                assert!(warning.contains(&named), "{warning}");
+            }
+        };
+        let (warnings, other) = warnings_of_a_new_instance(&running);
+        expect(&warnings);
+        // What continues is another simulation, whose state is restored without a warning.
+        let present = other.state().serialize();
+        assert_eq!(warnings_of_a_new_instance(&present).0, [""; 0]);
+        // Before initialisation ends the files are read when they are needed.
+        let (warnings, other) = warnings_of_a_new_instance(&initializing);
+        assert_eq!(warnings, [""; 0]);
+        assert_eq!(other.state().serialize(), initializing);
+        assert_eq!(other.exit_initialization(), c::OK);
+        assert_eq!(other.step(0.0, 0.01), c::OK);
+        let log: Vec<String> = other
+            .take_log()
+            .into_iter()
+            .map(|line| line.message)
+            .collect();
+        expect(&log);
+        // The instance that took the state keeps its rotor.
+        let state = instance.deserialize(&running).unwrap();
+        assert_eq!(instance.set_state(&state), c::OK);
+        assert_eq!(instance.take_log(), []);
+    }
+    write(polar, shape);
+    assert_eq!(warnings_of_a_new_instance(&running).0, [""; 0]);
 }

@@ -166,6 +166,42 @@ fn flow_beyond_the_numbers_of_an_airfoil_file_is_logged_once_for_each_instance()
     );
 }
 
+/// A warning needs no logging_on and does not change the answer of the call.
+#[test]
+fn implausible_values_are_logged_at_the_end_of_initialisation() {
+    let warned = |chosen: &[&str]| {
+        let instance = Instance::new();
+        if !chosen.is_empty() {
+            assert_eq!(instance.set_debug_logging(false, chosen), c::OK);
+        }
+        assert_eq!(instance.set_real("tilt", 8.0), c::OK);
+        assert_eq!(instance.set_real("geometry.chord", 0.5), c::OK);
+        instance.initialize();
+        assert_eq!(instance.step(0.0, 0.01), c::OK);
+        instance.take_log()
+    };
+    let log = warned(&[]);
+    for part in ["tilt = 8 rad", "chord given in mm?", "solidity"] {
+        let lines: Vec<_> = log
+            .iter()
+            .filter(|line| line.message.contains(part))
+            .collect();
+        let [line] = lines[..] else {
+            panic!("one line with {part:?} is expected: {log:?}")
+        };
+        assert_eq!(
+            (line.status, line.category.as_str()),
+            (c::WARNING, "logStatusWarning")
+        );
+        assert!(
+            line.message.starts_with("fmi2ExitInitializationMode: "),
+            "{line:?}"
+        );
+    }
+    assert_eq!(warned(&["logStatusWarning"]), log);
+    assert_eq!(warned(&["logStatusError", "logEvents"]), []);
+}
+
 #[test]
 fn errors_are_logged_also_while_logging_is_off() {
     let instance = Instance::new();

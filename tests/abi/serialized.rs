@@ -184,7 +184,7 @@ fn bytes_that_are_no_state_of_this_fmu_are_refused_with_the_reason() {
     ] {
         refused(foreign, &["not a serialized state of this FMU"]);
     }
-    refused(&changed(8, |b| b + 1), &["format 3", "reads 2"]);
+    refused(&changed(8, |b| b + 1), &["format 4", "reads 3"]);
     refused(&changed(GUID_AT + 5, |b| b ^ 1), &["GUID", GUID]);
     refused(&good[..good.len() - 1], &["cut short"]);
     refused(&good[..CONTENT_AT], &["cut short"]);

@@ -1,6 +1,8 @@
 //! Axial flow past the default rotor: limits, symmetries and balances that can be checked on paper.
 
-use crate::support::block::{computed, default_block, get, set_string, thrust};
+use crate::support::block::{
+    choose, computed, default_block, get, set, set_integer, set_string, thrust,
+};
 use helicopter_rotor::block::variables::{RealRef, integer, real, string};
 use std::f64::consts::PI;
 
@@ -218,4 +220,41 @@ fn the_stations_along_the_blade_add_up_to_the_thrust() {
         (sum / get(&block, real::THRUST) - 1.0).abs() < 5e-3,
         "{sum}"
     );
+}
+
+/// In steps of 1e-4 rad through zero thrust, with every tip loss: no step of the thrust is larger
+/// than twice the largest at either end of the scan.
+#[test]
+fn thrust_does_not_jump_near_zero_with_any_tip_loss() {
+    for inflow in ["uniform", "annulus", "annulusClosedForm"] {
+        for tip_loss in integer::MODELS__TIP_LOSS.variable().choices {
+            // The closed form jumps where it goes over to the windmill, as the documentation says.
+            let climbs: &[f64] = match inflow {
+                "annulusClosedForm" => &[0.0],
+                _ => &[-2.0, 0.0, 2.0],
+            };
+            for climb in climbs {
+                let mut block = default_block();
+                choose(&mut block, integer::MODELS__INFLOW, inflow);
+                choose(&mut block, integer::MODELS__TIP_LOSS, tip_loss);
+                set_integer(&mut block, integer::NUMERICS__ELEMENTS, 12);
+                set(&mut block, real::VELOCITY_3, *climb);
+                let thrusts: Vec<f64> = (-600..=600)
+                    .map(|i| {
+                        set(&mut block, real::COLLECTIVE, 1e-4 * f64::from(i));
+                        block.update().unwrap();
+                        get(&block, real::THRUST)
+                    })
+                    .collect();
+                let steps: Vec<f64> = thrusts.windows(2).map(|t| (t[1] - t[0]).abs()).collect();
+                let largest = |steps: &[f64]| steps.iter().copied().fold(0.0, f64::max);
+                let ends = largest(&steps[..50]).max(largest(&steps[1150..]));
+                assert!(
+                    largest(&steps) < 2.0 * ends,
+                    "{inflow} {tip_loss} {climb}: {} {ends}",
+                    largest(&steps)
+                );
+            }
+        }
+    }
 }

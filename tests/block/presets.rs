@@ -6,6 +6,7 @@ use helicopter_rotor::block::{
     RotorBlock,
     variables::{integer, real, string},
 };
+use rotor::{airfoil::Airfoil, geometry};
 use std::fs;
 
 fn preset(file: &str) -> RotorBlock {
@@ -208,4 +209,29 @@ fn the_thesis_rotor_hovers_with_the_thesis_lift_slopes() {
         assert!((tip_speed - 55.0).abs() < 0.01);
         assert!((slopes / table - 1.0).abs() < 0.15, "{table} {slopes}");
     }
+}
+
+#[test]
+fn every_airfoil_is_read() {
+    for entry in fs::read_dir(resources().join("airfoils")).unwrap() {
+        let path = entry.unwrap().path();
+        Airfoil::read(&path).unwrap_or_else(|error| panic!("{error}"));
+    }
+}
+
+/// A rotor file may hold what the parameters may hold.
+#[test]
+fn the_ranges_of_rotor_files_are_those_of_the_parameters() {
+    for (reference, range) in [
+        (real::GEOMETRY__RADIUS, geometry::RADIUS),
+        (real::GEOMETRY__ROOT_CUTOUT, geometry::CUTOUT),
+        (real::GEOMETRY__CHORD, geometry::CHORD),
+        (real::GEOMETRY__TWIST, geometry::TWIST),
+        (real::GEOMETRY__PITCH_REFERENCE_RADIUS, 0.0..=1.0),
+    ] {
+        let variable = reference.variable();
+        assert_eq!(variable.min..=variable.max, range, "{}", variable.name);
+    }
+    let blades = integer::GEOMETRY__NUMBER_OF_BLADES.variable();
+    assert_eq!((blades.min, blades.max), (1, geometry::MAX_BLADES as i32));
 }

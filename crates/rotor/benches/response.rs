@@ -34,7 +34,8 @@ fn hover(criterion: &mut Criterion) {
     let point = OperatingPoint::hover(0.14, SPEED, Air::standard(0.0));
     let state = rotor
         .start(&point, Start::Steady, AZIMUTH_STEP, &mut workspace)
-        .unwrap();
+        .unwrap()
+        .state;
     criterion.bench_function("response in hover, annuli, 40 elements", |bencher| {
         bencher.iter(|| {
             rotor
@@ -68,7 +69,8 @@ fn azimuth_step(criterion: &mut Criterion) {
     };
     let state = rotor
         .start(&point, Start::Steady, AZIMUTH_STEP, &mut workspace)
-        .unwrap();
+        .unwrap()
+        .state;
     let step = AZIMUTH_STEP / SPEED;
     criterion.bench_function(
         "azimuth step, flapping, dynamic inflow, 4 x 40 elements",

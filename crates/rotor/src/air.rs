@@ -23,6 +23,15 @@ pub struct Air<S = f64> {
 }
 
 impl<S: Scalar> Air<S> {
+    /// The air with `function` applied to each of its numbers.
+    pub fn map<T: Scalar>(&self, function: impl Fn(S) -> T) -> Air<T> {
+        Air {
+            density: function(self.density),
+            speed_of_sound: function(self.speed_of_sound),
+            viscosity: function(self.viscosity),
+        }
+    }
+
     /// Air of a given density (kg/m3, > 0) and temperature (K, > 0).
     ///
     /// The speed of sound is that of the ideal gas, sqrt(gamma R T). The viscosity follows

@@ -39,10 +39,7 @@ impl Rotor {
         let elements = self.elements();
         let mut range = None;
         for (i, load) in loads.iter().enumerate() {
-            let share = elements.outer_share[i];
-            let is_inner = elements.inner_airfoil[i] == airfoil && share < 1.0;
-            let is_outer = elements.outer_airfoil[i] == airfoil && share > 0.0;
-            if load.speed == 0.0 || !(is_inner || is_outer) {
+            if load.speed == 0.0 || !elements.uses(i, airfoil) {
                 continue;
             }
             let number = match axis {

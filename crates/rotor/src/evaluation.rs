@@ -4,7 +4,7 @@
 use super::{
     blade::Blade,
     disc::{Azimuth, BladePosition, BladePositions, DiscFlow, Flap, WindAxes},
-    flapping::{Action, Freedom, Stops},
+    flapping::{Action, Freedom},
     inflow::{DescentLaw, Disc, Ground, InflowStates, Momentum, Stream},
     models::Blades,
     operating_point::OperatingPoint,
@@ -189,19 +189,6 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
             climb: self.flow.climb,
             radius: self.rotor.geometry().radius,
             descent: self.descent,
-        }
-    }
-
-    /// An estimate of the rate of a blade on a stop, frequency plus damping, 1/s; 0 without stops.
-    pub(crate) fn stop_rate(&self) -> f64 {
-        let hinge = &self.rotor.models().hinge;
-        let has_stops = self
-            .freedom
-            .is_some_and(|freedom| freedom.stops != Stops::default());
-        if has_stops {
-            hinge.stop_rate(self.flow.rotation.value())
-        } else {
-            0.0
         }
     }
 

@@ -96,7 +96,7 @@ pub use models::{Blades, Models};
 pub use operating_point::{Drive, OperatingPoint};
 pub use response::Response;
 pub use rotor::Rotor;
-pub use start::Start;
+pub use start::{Start, Started};
 pub use state::State;
 pub use tip_path::TipPath;
 pub use workspace::Workspace;

@@ -78,6 +78,29 @@ impl OperatingPoint {
 }
 
 impl<S: Scalar> OperatingPoint<S> {
+    /// The operating point with `function` applied to each of its numbers.
+    pub fn map<T: Scalar>(&self, function: impl Fn(S) -> T) -> OperatingPoint<T> {
+        OperatingPoint {
+            collective: function(self.collective),
+            cyclic_longitudinal: function(self.cyclic_longitudinal),
+            cyclic_lateral: function(self.cyclic_lateral),
+            speed: function(self.speed),
+            airspeed: self.airspeed.map(&function),
+            angular_velocity: self.angular_velocity.map(&function),
+            gravity: self.gravity.map(&function),
+            hinge_spring: function(self.hinge_spring),
+            height: function(self.height),
+            drive: match self.drive {
+                Drive::Speed => Drive::Speed,
+                Drive::Torque { torque, inertia } => Drive::Torque {
+                    torque: function(torque),
+                    inertia,
+                },
+            },
+            air: self.air.map(&function),
+        }
+    }
+
     /// Whether a torque drives the rotor, so that its speed is a state.
     pub fn is_driven(&self) -> bool {
         match self.drive {

@@ -177,6 +177,7 @@ fn table(
                 | CurveProblem::Empty
                 | CurveProblem::TooMany => &row[0],
                 CurveProblem::NotFinite { .. }
+                | CurveProblem::TooLarge { .. }
                 | CurveProblem::NegativeDrag(_)
                 | CurveProblem::TooSteep { .. } => &row[mach + 1],
             };
@@ -287,6 +288,12 @@ Test section                   2 4 1 3 1 2
                 "   0.00  -0.01",
                 "line 9, column 10",
                 "must not be negative",
+            ),
+            (
+                "   0.00   0.01",
+                "   0.00  1e100",
+                "line 9, column 10",
+                "between -10 and 10",
             ),
             (" 180.00   0.03\n", "", "line 9", "the file ends before"),
         ] {

@@ -239,7 +239,7 @@ fn law(row: &[Number]) -> Result<Law, Problem> {
         let place = match error {
             LawError::SlopeA(_) => slope_a,
             LawError::SlopeC(_) => slope_c,
-            LawError::Stall(_) => stall,
+            LawError::Stall(_) | LawError::Lift { .. } => stall,
             LawError::Drag { .. } => drag.first().unwrap_or(stall),
         };
         (place.line, place.column, error.to_string())
@@ -358,14 +358,37 @@ double airfoil(2, 7)  # rows, columns
             ("4.6", "46", "line 5, column 9", "0 to 20 per rad"),
             ("0.175", "10.0", "line 4, column 13", "angles are in rad"),
             ("0.175", "0", "line 4, column 13", "must be above 0"),
-            ("2e4", "0.5", "line 4, column 1", "must be 1 or more"),
+            ("2e4", "0.5", "line 4, column 1", "must lie between 1 and"),
             (
                 "1e6",
                 "2e4",
                 "line 5, column 1",
                 "above the one before (20000)",
             ),
-            ("1.1", "-1.1", "line 4, column 19", "must not be negative"),
+            (
+                "1.1",
+                "-1.1",
+                "line 4, column 19",
+                "must lie between 0 and 10",
+            ),
+            (
+                "1.1",
+                "1e300",
+                "line 4, column 19",
+                "the drag polynomial gives 7",
+            ),
+            (
+                "6.2 3.0 0.175",
+                "20 3.0 0.7",
+                "line 4, column 12",
+                "the lift coefficient at the stall angle is 14.0 by line A",
+            ),
+            (
+                "6.2 3.0 0.175",
+                "6.2 20 0.7",
+                "line 4, column 12",
+                "by line C; it must be at most 10",
+            ),
         ] {
             let text = GOOD.replacen(from, to, 1);
             let error = parse(&text, "bad.txt").unwrap_err().to_string();

@@ -11,12 +11,16 @@ const PARTS: usize = 720;
 /// Maximum number of points of a curve: `Curve::interval` counts them in 16 bits.
 const MAX_POINTS: usize = 1 << 16;
 
+/// Maximum of lift and drag coefficients, whatever their sign. No section comes near it: a flat
+/// plate across the flow has a drag coefficient of 2, and multi-element sections lift up to 5.
+pub const MAX_COEFFICIENT: f64 = 10.0;
+
 /// The coefficient of a curve, which decides the values that it may have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Coefficient {
-    /// Any finite value.
+    /// From -`MAX_COEFFICIENT` to `MAX_COEFFICIENT`.
     Lift,
-    /// Finite and not negative.
+    /// From 0 to `MAX_COEFFICIENT`.
     Drag,
 }
 
@@ -25,7 +29,7 @@ pub enum Coefficient {
 pub struct Curve {
     /// Angles of attack, strictly increasing from -pi to pi, rad.
     alpha: Vec<f64>,
-    /// The coefficient at each angle, finite.
+    /// The coefficient at each angle, at most `MAX_COEFFICIENT` in magnitude.
     value: Vec<f64>,
     /// Slope of the interval that begins at each point but the last, finite, 1/rad.
     slope: Vec<f64>,
@@ -59,6 +63,16 @@ pub enum CurveProblem {
     NotFinite {
         /// deg.
         alpha: f64,
+    },
+    /// The coefficient is beyond `MAX_COEFFICIENT`.
+    #[error(
+        "the coefficient at {alpha} deg is {value:?}; it must lie between -{MAX_COEFFICIENT} and {MAX_COEFFICIENT}"
+    )]
+    TooLarge {
+        /// deg.
+        alpha: f64,
+        /// The coefficient.
+        value: f64,
     },
     /// A drag coefficient below 0.
     #[error("drag coefficient {0} must not be negative")]
@@ -104,7 +118,7 @@ impl Curve {
     /// # Errors
     ///
     /// The first point that is wrong: angles must increase strictly from -180 to 180 deg, values
-    /// must be finite, and drag must not be negative.
+    /// must be at most `MAX_COEFFICIENT` in magnitude, and drag must not be negative.
     pub fn try_from_degrees(
         coefficient: Coefficient,
         points: &[(f64, f64)],
@@ -208,6 +222,9 @@ fn check_point(
     if !value.is_finite() {
         return Err(CurveProblem::NotFinite { alpha });
     }
+    if value.abs() > MAX_COEFFICIENT {
+        return Err(CurveProblem::TooLarge { alpha, value });
+    }
     match coefficient {
         Coefficient::Drag if value < 0.0 => return Err(CurveProblem::NegativeDrag(value)),
         Coefficient::Drag | Coefficient::Lift => {}
@@ -283,7 +300,7 @@ mod tests {
         let alike: [f64; 2] = [15.000_000_000_000_004, 15.000_000_000_000_005];
         assert!(alike[0] < alike[1] && alike[0].to_radians() == alike[1].to_radians());
         type Points<'a> = &'a [(f64, f64)];
-        let cases: [(Points, usize, &str); 13] = [
+        let cases: [(Points, usize, &str); 15] = [
             (&[], 0, "no angles"),
             (&[(-180.0, 1.0)], 0, "last angle must be 180 deg, not -180"),
             (
@@ -328,9 +345,19 @@ mod tests {
                 "not a finite number",
             ),
             (
-                &[(-180.0, 1.7e308), (-179.0, 0.0), (180.0, 0.0)],
-                1,
+                &[(-180.0, 0.0), (0.0, 0.0), (1e-310, 10.0), (180.0, 0.0)],
+                2,
                 "too steeply",
+            ),
+            (
+                &[(-180.0, 0.0), (0.0, 1e300), (180.0, 0.0)],
+                1,
+                "the coefficient at 0 deg is 1e300; it must lie between -10 and 10",
+            ),
+            (
+                &[(-180.0, 0.0), (0.0, -10.5), (180.0, 0.0)],
+                1,
+                "at 0 deg is -10.5",
             ),
             (
                 &[(-180.0, 0.1), (0.0, -0.1), (180.0, 0.1)],
@@ -343,7 +370,7 @@ mod tests {
             assert_eq!(error.point, place, "{points:?}");
             assert!(error.to_string().contains(part), "{points:?}: {error}");
         }
-        let negative_lift = [(-180.0, 0.1), (0.0, -0.1), (180.0, 0.2)];
+        let negative_lift = [(-180.0, 0.1), (0.0, -10.0), (180.0, 10.0)];
         assert!(Curve::try_from_degrees(Coefficient::Lift, &negative_lift).is_ok());
         let angle = |i: u32| -180.0 + 360.0 * f64::from(i) / 70_000.0;
         let many: Vec<_> = (0..=70_000).map(|i| (angle(i), 0.0)).collect();

@@ -29,6 +29,7 @@
 
 use super::{
     Similarity,
+    curve::MAX_COEFFICIENT,
     layers::{Axis, Layers, LayersError},
     table::wrapped,
 };
@@ -75,7 +76,8 @@ pub struct Law {
     slope_c: f64,
     /// Above 0, below pi/2, rad.
     stall: f64,
-    /// d0, d1, d2, ... per rad: the polynomial is not negative from 0 to the stall angle.
+    /// d0, d1, d2, ... per rad: the polynomial lies between 0 and `MAX_COEFFICIENT` from 0 to the
+    /// stall angle.
     drag: Vec<f64>,
 }
 
@@ -109,9 +111,19 @@ pub enum LawError {
         max = MAX_STALL.to_radians()
     )]
     Stall(f64),
-    /// The polynomial is negative or not finite at an angle up to stall.
+    /// Lift beyond `MAX_COEFFICIENT` at the stall angle.
     #[error(
-        "the drag polynomial gives {value} at {deg:.2} deg; from 0 to the stall angle it must not be negative",
+        "the lift coefficient at the stall angle is {value:?} by line {line}; it must be at most {MAX_COEFFICIENT}: lower the lift slope or the stall angle"
+    )]
+    Lift {
+        /// The lift coefficient.
+        value: f64,
+        /// The line in the thesis that gives it.
+        line: char,
+    },
+    /// The polynomial is out of its range at an angle up to stall.
+    #[error(
+        "the drag polynomial gives {value:?} at {deg:.2} deg; from 0 to the stall angle it must lie between 0 and {MAX_COEFFICIENT}",
         deg = alpha.to_degrees()
     )]
     Drag {
@@ -151,8 +163,8 @@ impl Law {
     ///
     /// # Errors
     ///
-    /// The first number out of its range; the drag polynomial is checked at 201 angles from 0 to
-    /// the stall angle.
+    /// The first number out of its range, and lift or drag beyond `MAX_COEFFICIENT`; the drag
+    /// polynomial is checked at 201 angles from 0 to the stall angle.
     pub fn try_new(numbers: Coefficients) -> Result<Self, LawError> {
         let Coefficients {
             reynolds,
@@ -177,10 +189,16 @@ impl Law {
             stall,
             drag: drag.to_vec(),
         };
+        for (line, name) in [(Line::ByPitch(0.0), 'A'), (Line::Broken, 'C')] {
+            let value: f64 = law.attached(line, stall);
+            if value > MAX_COEFFICIENT {
+                return Err(LawError::Lift { value, line: name });
+            }
+        }
         for i in 0..=CHECKS {
             let alpha = stall * i as f64 / CHECKS as f64;
             let value: f64 = law.attached_drag(alpha);
-            if !(value >= 0.0 && value.is_finite()) {
+            if !(0.0..=MAX_COEFFICIENT).contains(&value) {
                 return Err(LawError::Drag { value, alpha });
             }
         }
@@ -255,7 +273,7 @@ impl Laws {
     ///
     /// # Errors
     ///
-    /// There must be one or more, with finite and strictly increasing Reynolds numbers from 1 on.
+    /// There must be one or more, with strictly increasing Reynolds numbers from 1 to 1e10.
     pub fn try_new(law: Vec<Law>) -> Result<Self, LayersError> {
         let numbers = law.iter().map(|l| l.reynolds).collect();
         Ok(Self {

@@ -2,24 +2,24 @@
 
 use super::Similarity;
 use crate::scalar::Scalar;
-use std::fmt;
+use std::{fmt, ops::RangeInclusive};
 use thiserror::Error;
 
 /// What the layers of a table are numbered by.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Axis {
-    /// Reynolds number of the chord, >= 1.
+    /// Reynolds number of the chord, 1 to 1e10.
     Reynolds,
-    /// Mach number, >= 0.
+    /// Mach number, 0 to 10.
     Mach,
 }
 
 impl Axis {
-    /// Smallest number that a file may have.
-    fn min(self) -> f64 {
+    /// The numbers that a file may have; no rotor comes near the highest.
+    fn permitted(self) -> RangeInclusive<f64> {
         match self {
-            Self::Reynolds => 1.0,
-            Self::Mach => 0.0,
+            Self::Reynolds => 1.0..=1e10,
+            Self::Mach => 0.0..=10.0,
         }
     }
 }
@@ -58,8 +58,8 @@ pub enum LayersProblem {
     /// No numbers at all.
     #[error("there is no {0}; one or more are needed")]
     Empty(Axis),
-    /// NaN, infinite, or too small.
-    #[error("{axis} {number} must be {} or more", axis.min())]
+    /// NaN, infinite, too small or too large.
+    #[error("{axis} {number:?} must lie between {} and {}", axis.permitted().start(), axis.permitted().end())]
     OutOfRange {
         /// What the number is.
         axis: Axis,
@@ -83,8 +83,8 @@ impl Layers {
     ///
     /// # Errors
     ///
-    /// The first wrong number: there must be one or more, finite, strictly increasing, Reynolds
-    /// numbers from 1 and Mach numbers from 0 on.
+    /// The first wrong number: there must be one or more, strictly increasing, Reynolds numbers
+    /// from 1 to 1e10 and Mach numbers from 0 to 10.
     pub fn try_new(axis: Axis, number: Vec<f64>) -> Result<Self, LayersError> {
         let fail = |layer: usize, problem: LayersProblem| Err(LayersError { layer, problem });
         if number.is_empty() {
@@ -93,7 +93,7 @@ impl Layers {
         let numbers = number;
         let mut position: Vec<f64> = Vec::with_capacity(numbers.len());
         for (layer, &number) in numbers.iter().enumerate() {
-            if !(number.is_finite() && number >= axis.min()) {
+            if !axis.permitted().contains(&number) {
                 return fail(layer, LayersProblem::OutOfRange { axis, number });
             }
             let next = match axis {
@@ -215,25 +215,31 @@ mod tests {
                 Axis::Mach,
                 vec![-0.1],
                 0,
-                "Mach number -0.1 must be 0 or more",
+                "Mach number -0.1 must lie between 0 and 10",
             ),
             (
                 Axis::Mach,
                 vec![0.0, f64::INFINITY],
                 1,
-                "Mach number inf must be 0 or more",
+                "Mach number inf must lie between 0 and 10",
             ),
             (
                 Axis::Mach,
                 vec![f64::NAN],
                 0,
-                "Mach number NaN must be 0 or more",
+                "Mach number NaN must lie between 0 and 10",
             ),
             (
                 Axis::Reynolds,
                 vec![0.5],
                 0,
-                "Reynolds number 0.5 must be 1 or more",
+                "Reynolds number 0.5 must lie between 1 and 10000000000",
+            ),
+            (
+                Axis::Reynolds,
+                vec![1e5, 1e300],
+                1,
+                "Reynolds number 1e300 must lie between 1 and 10000000000",
             ),
             (
                 Axis::Reynolds,

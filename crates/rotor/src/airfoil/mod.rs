@@ -27,7 +27,7 @@ use summary::Summary;
 use super::{
     compressibility::Compressibility,
     scalar::{C, Scalar},
-    text_file,
+    text_file::{self, TextFile},
 };
 use core::f64::consts::PI;
 use std::path::Path;
@@ -155,9 +155,21 @@ impl Airfoil {
     ///
     /// The first problem, with its place in the file.
     pub fn read(path: &Path) -> Result<Self, AirfoilError> {
+        Self::read_with_hash(path).map(|(airfoil, _)| airfoil)
+    }
+
+    /// As `read`, with a 64-bit hash of the file's text, which tells whether the file has changed.
+    ///
+    /// # Errors
+    ///
+    /// As `read`.
+    pub fn read_with_hash(path: &Path) -> Result<(Self, u64), AirfoilError> {
         let file = path.display().to_string();
         match text_file::read(path) {
-            Ok(text) => (formats::detected(path, &text).parse)(&text, &file),
+            Ok(TextFile { text, hash }) => {
+                let airfoil = (formats::detected(path, &text).parse)(&text, &file)?;
+                Ok((airfoil, hash))
+            }
             Err(reason) => Err(AirfoilError::Unreadable { file, reason }),
         }
     }
@@ -273,6 +285,11 @@ impl Airfoil {
             Data::Tables { drag, .. } => drag.value(alpha, flow),
             Data::Laws(laws) => laws.drag(alpha, flow),
         }
+    }
+
+    /// Whether the section has lift at any angle.
+    pub fn lifts(&self) -> bool {
+        self.summary.lifts
     }
 
     /// The lift as one line: its slope, 1/rad, and its angle of zero lift, rad.

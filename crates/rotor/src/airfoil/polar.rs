@@ -195,12 +195,14 @@ mod tests {
         for (from, to, line, part) in [
             ("polar 1", "polar 2", 2, "must begin with `polar 1`"),
             ("name Test 12", "10 1 0.1", 3, "before the first `reynolds`"),
-            ("reynolds 1e5", "reynolds 0", 4, "1 or more"),
+            ("reynolds 1e5", "reynolds 0", 4, "must lie between 1 and"),
             ("reynolds 1e5", "reynolds fast", 4, "`fast` is not a number"),
             ("-180 0 0.02", "-170 0 0.02", 5, "must be -180"),
             ("0 0 0.01", "-190 0 0.01", 6, "must be above the one before"),
             ("10 1 0.02 -0.1", "10 1", 7, "this one has 2"),
             ("10 1 0.02 -0.1", "10 1 -0.02", 7, "must not be negative"),
+            ("10 1 0.02 -0.1", "10 1e300 0.02", 7, "at 10 deg is 1e300"),
+            ("10 1 0.02 -0.1", "10 1 11", 7, "between -10 and 10"),
             ("10 1 0.02 -0.1", "10 nan 0.02", 7, "`nan` is not a number"),
             ("180 0 0.02\n", "190 0 0.02\n", 5, "must be -180"),
             (

@@ -1,6 +1,25 @@
 //! The blade cut into elements: one array for each quantity, from root to tip.
 
 use super::Geometry;
+use core::f64::consts::PI;
+
+/// Twist that the elements around a station may miss, rad.
+const HIDDEN_TWIST: f64 = 2.0 * PI / 180.0;
+
+/// Ratio of a station's chord to those of the elements around it up to which they show it.
+const HIDDEN_CHORD: f64 = 1.25;
+
+/// What the elements do not show of a station.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Missed {
+    /// No element has the station's airfoil.
+    Airfoil,
+    /// The station's twist differs by more than 2 deg from that of the elements around it.
+    Twist,
+    /// The station's chord is more than a quarter larger than that of the elements around it,
+    /// which have the blade's area, but spread.
+    Chord,
+}
 
 /// Blade elements of equal width from the cutout to the tip. All arrays have one entry for each
 /// element, from the inside out. SI units.
@@ -52,6 +71,50 @@ impl Elements {
         elements
     }
 
+    /// Whether an airfoil, by its index in `Geometry::airfoils`, has a share in an element.
+    pub fn uses(&self, element: usize, airfoil: usize) -> bool {
+        let share = self.outer_share[element];
+        let is_inner = self.inner_airfoil[element] == airfoil && share < 1.0;
+        let is_outer = self.outer_airfoil[element] == airfoil && share > 0.0;
+        is_inner || is_outer
+    }
+
+    /// The first station that is nearer to a neighbour than an element is wide and that the elements
+    /// miss, by its index. A step is not missed if both of its sides are shown, nor is a rounded
+    /// tip.
+    pub fn missed_station(&self, geometry: &Geometry) -> Option<(usize, Missed)> {
+        let width = self.width / geometry.radius;
+        (0..geometry.stations.len()).find_map(|index| {
+            let is_narrow = geometry.gap(index) < width;
+            let missed = is_narrow.then(|| self.missed(geometry, index)).flatten();
+            missed.map(|missed| (index, missed))
+        })
+    }
+
+    /// What the elements miss of a station, if anything.
+    fn missed(&self, geometry: &Geometry, index: usize) -> Option<Missed> {
+        let station = &geometry.stations[index];
+        if !(0..self.len()).any(|element| self.uses(element, station.airfoil)) {
+            return Some(Missed::Airfoil);
+        }
+        let from_cutout = station.radius_ratio - geometry.cutout();
+        let element = (from_cutout * geometry.radius / self.width) as usize;
+        let element = element.min(self.len() - 1);
+        let around = element.saturating_sub(1)..(element + 2).min(self.len());
+        let range = |values: &[f64]| {
+            let ends = (f64::INFINITY, f64::NEG_INFINITY);
+            let values = values.iter();
+            values.fold(ends, |(low, high), v| (v.min(low), v.max(high)))
+        };
+        let (low, high) = range(&self.twist[around.clone()]);
+        let twist = geometry.twist(station.radius_ratio);
+        if twist < low - HIDDEN_TWIST || twist > high + HIDDEN_TWIST {
+            return Some(Missed::Twist);
+        }
+        let (_, widest) = range(&self.chord[around]);
+        (station.chord > HIDDEN_CHORD * widest).then_some(Missed::Chord)
+    }
+
     /// Number of elements.
     pub fn len(&self) -> usize {
         self.radius.len()
@@ -71,6 +134,7 @@ impl Elements {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Station;
 
     #[test]
     fn elements_keep_the_area_of_the_blade() {
@@ -80,6 +144,54 @@ mod tests {
             let area: f64 = elements.chord.iter().map(|c| c * elements.width).sum();
             assert!((area - 0.75 * 2.0 * 0.15).abs() < 1e-12, "{count}: {area}");
             assert_eq!(elements.len(), count);
+        }
+    }
+
+    #[test]
+    fn narrow_stations_are_missed_but_steps_and_rounded_tips_are_not() {
+        let blade = |stations: &[(f64, f64, f64, usize)]| {
+            let mut geometry = Geometry::linear(2, 2.0, 0.2, 0.1, 1.0, 0.0);
+            let station =
+                |&(radius_ratio, chord, twist, airfoil): &(f64, f64, f64, usize)| Station {
+                    radius_ratio,
+                    chord,
+                    twist,
+                    airfoil,
+                };
+            geometry.stations = stations.iter().map(station).collect();
+            geometry.airfoils = vec!["a".to_owned(), "b".to_owned()];
+            geometry
+        };
+        let narrow = |chord: f64, twist: f64, airfoil: usize| {
+            blade(&[
+                (0.2, 0.1, 0.0, 0),
+                (0.599, 0.1, 0.0, 0),
+                (0.6, chord, twist, airfoil),
+                (0.602, 0.1, 0.0, 0),
+                (1.0, 0.1, 0.0, 0),
+            ])
+        };
+        let step = blade(&[
+            (0.2, 0.1, 0.0, 0),
+            (0.6, 0.1, 0.0, 0),
+            (0.601, 0.2, 0.2, 1),
+            (0.999, 0.2, 0.2, 1),
+            (1.0, 0.0, 0.2, 1),
+        ]);
+        assert!((step.gap(2) - 0.001).abs() < 1e-12 && (step.gap(0) - 0.4).abs() < 1e-12);
+        for (geometry, missed) in [
+            (narrow(0.1, 0.0, 0), None),
+            (narrow(0.1, 0.0, 1), Some((2, Missed::Airfoil))),
+            (narrow(0.1, 0.1, 0), Some((2, Missed::Twist))),
+            (narrow(0.1, -0.1, 0), Some((2, Missed::Twist))),
+            (narrow(0.2, 0.0, 0), Some((2, Missed::Chord))),
+            (narrow(0.0, 0.0, 0), None),
+            (step, None),
+        ] {
+            let elements = Elements::new(&geometry, 40);
+            assert_eq!(elements.missed_station(&geometry), missed);
+            let fine = Elements::new(&geometry, 2000);
+            assert_eq!(fine.missed_station(&geometry), None);
         }
     }
 }

@@ -18,7 +18,7 @@
 //! standard airfoil.
 
 use super::{BladeInertia, Geometry, GeometryError, Rotation, Station};
-use crate::text_file;
+use crate::text_file::{self, TextFile};
 use serde::Deserialize;
 use std::path::Path;
 use thiserror::Error;
@@ -109,12 +109,20 @@ impl Geometry {
     ///
     /// The first problem, with the file and, where it has one, its line and column.
     pub fn read(path: &Path) -> Result<Self, RotorFileError> {
+        Self::read_with_hash(path).map(|(geometry, _)| geometry)
+    }
+
+    /// As `read`, with a 64-bit hash of the file's text, which tells whether the file has changed.
+    ///
+    /// # Errors
+    ///
+    /// As `read`.
+    pub fn read_with_hash(path: &Path) -> Result<(Self, u64), RotorFileError> {
         let file = path.display().to_string();
-        let text = text_file::read(path).map_err(|reason| RotorFileError::Unreadable {
-            file: file.clone(),
-            reason,
-        })?;
-        parse(&text, &file)
+        match text_file::read(path) {
+            Ok(TextFile { text, hash }) => Ok((parse(&text, &file)?, hash)),
+            Err(reason) => Err(RotorFileError::Unreadable { file, reason }),
+        }
     }
 }
 
@@ -270,12 +278,23 @@ station = [
             (
                 "radius = 1.5",
                 "radius = -1.5",
-                "bad.toml: the rotor radius is -1.5 m",
+                "bad.toml: the rotor radius is -1.5 m; it must lie between",
             ),
             (
                 "chord = 0.1, twist = 2.0",
                 "chord = -1, twist = 2.0",
-                "at r/R = 0.95 the chord is -1 m",
+                "at the blade station r/R = 0.95 the chord is -1.0 m",
+            ),
+            (
+                "chord = 0.1, twist = 2.0",
+                "chord = 1e100",
+                "at the blade station r/R = 0.95 the chord is 1e100 m",
+            ),
+            ("twist = 2.0", "twist = 1e300", "r/R = 0.95 the twist is "),
+            (
+                "radius = 1.5",
+                "radius = 1e100",
+                "bad.toml: the rotor radius is 1e100 m",
             ),
             ("r = 0.95", "r = 0.1", "r/R = 0.1 follows 0.2"),
             ("[\n", "[[\n", "bad.toml, line "),

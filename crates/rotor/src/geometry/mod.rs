@@ -4,14 +4,27 @@ mod elements;
 mod file;
 mod inertia;
 
-pub use elements::Elements;
+pub use elements::{Elements, Missed};
 pub use file::RotorFileError;
 pub use inertia::{BladeInertia, lock_number};
 
+use core::{f64::consts::PI, ops::RangeInclusive};
 use thiserror::Error;
 
 /// Maximum number of blades.
 pub const MAX_BLADES: u32 = 20;
+
+/// Permitted rotor radii R, m.
+pub const RADIUS: RangeInclusive<f64> = 1e-3..=1e3;
+
+/// Permitted radii r/R of the root cutout, where the blade begins.
+pub const CUTOUT: RangeInclusive<f64> = 0.01..=0.95;
+
+/// Permitted largest chords of a blade, m. Elsewhere the chord may be smaller, down to 0.
+pub const CHORD: RangeInclusive<f64> = 1e-4..=1e2;
+
+/// Permitted twist, rad.
+pub const TWIST: RangeInclusive<f64> = -PI..=PI;
 
 /// Direction of rotation, seen from above.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,12 +39,12 @@ pub enum Rotation {
 /// are linear in radius.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Station {
-    /// r/R, above 0, up to 1.
+    /// r/R, in `CUTOUT` for the first station, up to 1 for the last.
     pub radius_ratio: f64,
-    /// Chord, >= 0, m.
+    /// Chord, from 0 to the end of `CHORD`, m.
     pub chord: f64,
-    /// Pitch of the section less that of any reference that is the same for all stations, rad,
-    /// positive nose up.
+    /// Pitch of the section less that of any reference that is the same for all stations, in
+    /// `TWIST`, rad, positive nose up.
     pub twist: f64,
     /// Index of the section's airfoil in `Geometry::airfoils`.
     pub airfoil: usize,
@@ -43,7 +56,7 @@ pub struct Station {
 pub struct Geometry {
     /// Number of blades, 1 to `MAX_BLADES`.
     pub blades: u32,
-    /// Rotor radius R, > 0, m.
+    /// Rotor radius R, in `RADIUS`, m.
     pub radius: f64,
     /// r/R at which the pitch equals the collective, 0 to 1.
     pub pitch_reference_radius: f64,
@@ -51,7 +64,7 @@ pub struct Geometry {
     pub rotation: Rotation,
     /// Chord of the tip for tip losses and for the tip's Reynolds number, >= 0, m.
     pub tip_chord: f64,
-    /// Stations from the cutout (r/R > 0) to the tip (r/R = 1): two or more, radii strictly
+    /// Stations from the cutout (r/R in `CUTOUT`) to the tip (r/R = 1): two or more, radii strictly
     /// increasing.
     pub stations: Vec<Station>,
     /// Airfoil files of the sections; an empty name is the rotor's standard airfoil.
@@ -100,7 +113,7 @@ impl Geometry {
         }
     }
 
-    /// Refuses shapes that the models cannot compute.
+    /// Refuses shapes that the models cannot compute, and values that no rotor has.
     ///
     /// # Errors
     ///
@@ -116,49 +129,68 @@ impl Geometry {
                 self.blades
             ));
         }
-        if !(self.radius.is_finite() && self.radius > 0.0) {
+        if !RADIUS.contains(&self.radius) {
             return fail(format!(
-                "the rotor radius is {} m; it must be above 0",
-                self.radius
+                "the rotor radius is {:?} m; it must lie between {} and {} m",
+                self.radius,
+                RADIUS.start(),
+                RADIUS.end()
             ));
         }
         if !(0.0..=1.0).contains(&self.pitch_reference_radius) {
             return fail(format!(
-                "the pitch reference radius is {} R; it must lie between 0 and 1",
+                "the pitch reference radius is {:?} R; it must lie between 0 and 1",
                 self.pitch_reference_radius
             ));
         }
         let (Some(first), Some(last)) = (self.stations.first(), self.stations.last()) else {
             return fail("the blade has no stations; it needs two or more".into());
         };
-        if self.stations.len() < 2
-            || first.radius_ratio.is_nan()
-            || first.radius_ratio <= 0.0
-            || last.radius_ratio != 1.0
-        {
-            return fail(
-                "the blade needs two or more stations, the first at r/R > 0, the last at r/R = 1"
-                    .into(),
-            );
-        }
         for pair in self.stations.windows(2) {
             if pair[1].radius_ratio.is_nan() || pair[1].radius_ratio <= pair[0].radius_ratio {
                 return fail(format!(
-                    "the blade stations must go outwards, but r/R = {} follows {}",
+                    "the blade stations must go outwards, but r/R = {:?} follows {:?}",
                     pair[1].radius_ratio, pair[0].radius_ratio
                 ));
             }
         }
+        if self.stations.len() < 2
+            || !CUTOUT.contains(&first.radius_ratio)
+            || last.radius_ratio != 1.0
+        {
+            return fail(format!(
+                "the blade has {} stations from r/R = {:?} to {:?}; it needs two or more, the first at r/R = {} to {}, the last at r/R = 1",
+                self.stations.len(),
+                first.radius_ratio,
+                last.radius_ratio,
+                CUTOUT.start(),
+                CUTOUT.end()
+            ));
+        }
         for station in &self.stations {
-            if !(station.chord.is_finite() && station.chord >= 0.0 && station.twist.is_finite()) {
+            let place = format!("at the blade station r/R = {}", station.radius_ratio);
+            if !(0.0..=*CHORD.end()).contains(&station.chord) {
                 return fail(format!(
-                    "at r/R = {} the chord is {} m and the twist {} rad; the chord must be 0 or more, the twist finite",
-                    station.radius_ratio, station.chord, station.twist
+                    "{place} the chord is {:?} m; it must lie between 0 and {} m",
+                    station.chord,
+                    CHORD.end()
+                ));
+            }
+            if !TWIST.contains(&station.twist) {
+                return fail(format!(
+                    "{place} the twist is {:?} deg; it must lie between {} and {} deg",
+                    station.twist.to_degrees(),
+                    TWIST.start().to_degrees(),
+                    TWIST.end().to_degrees()
                 ));
             }
         }
-        if self.stations.iter().all(|s| s.chord == 0.0) {
-            return fail("the chord is 0 at every station; the blade needs some chord".into());
+        let largest = self.largest_chord();
+        if largest < *CHORD.start() {
+            return fail(format!(
+                "the largest chord of the blade is {largest:?} m; it must be {} m or more",
+                CHORD.start()
+            ));
         }
         Ok(())
     }
@@ -172,6 +204,22 @@ impl Geometry {
     pub fn twist(&self, radius_ratio: f64) -> f64 {
         self.interpolate(radius_ratio, |s| s.twist)
             - self.interpolate(self.pitch_reference_radius, |s| s.twist)
+    }
+
+    /// Chord at `radius_ratio`, from the cutout to the tip, m.
+    pub fn chord(&self, radius_ratio: f64) -> f64 {
+        self.interpolate(radius_ratio, |s| s.chord)
+    }
+
+    /// Largest chord of the blade, m.
+    pub fn largest_chord(&self) -> f64 {
+        self.stations.iter().fold(0.0, |c, s| s.chord.max(c))
+    }
+
+    /// Area of the blades from the cutout to the tip over the disc area pi R^2.
+    pub fn solidity(&self) -> f64 {
+        let disc = PI * self.radius * self.radius;
+        f64::from(self.blades) * self.area(self.cutout(), 1.0) / disc
     }
 
     /// A quantity at a radius: linear between the stations; inside the cutout it follows the line
@@ -193,6 +241,17 @@ impl Geometry {
             b,
             (radius_ratio - a.radius_ratio) / (b.radius_ratio - a.radius_ratio),
         )
+    }
+
+    /// Distance of a station, by its index, from the nearer of its neighbours, r/R.
+    pub fn gap(&self, station: usize) -> f64 {
+        let gaps = self.stations.windows(2);
+        let gaps = gaps.map(|pair| pair[1].radius_ratio - pair[0].radius_ratio);
+        // The gap before the station and the one behind it.
+        let sides = gaps.skip(station.saturating_sub(1));
+        sides
+            .take(if station == 0 { 1 } else { 2 })
+            .fold(1.0, f64::min)
     }
 
     /// Blade area between two radii (fractions of R), m2: the exact integral of the linear chord.
@@ -217,12 +276,40 @@ mod tests {
         let good = Geometry::linear(3, 1.0, 0.2, 0.1, 0.5, -0.1);
         assert_eq!(good.check(), Ok(()));
         type Spoil = fn(&mut Geometry);
-        let cases: [(Spoil, &str); 8] = [
+        let cases: [(Spoil, &str); 18] = [
             (|g| g.blades = 0, "number of blades"),
             (|g| g.blades = 21, "must be 20 or fewer"),
-            (|g| g.radius = -1.0, "radius is -1 m"),
+            (|g| g.radius = -1.0, "radius is -1.0 m"),
             (|g| g.radius = f64::NAN, "radius is NaN m"),
+            (
+                |g| g.radius = 1e100,
+                "radius is 1e100 m; it must lie between 0.001 and 1000 m",
+            ),
+            (|g| g.radius = 1e-9, "radius is 1e-9 m"),
+            (|g| g.pitch_reference_radius = 1e100, "is 1e100 R"),
             (|g| g.stations[0].chord = -0.1, "chord is -0.1 m"),
+            (|g| g.stations[0].chord = f64::NAN, "chord is NaN m"),
+            (
+                |g| g.stations[1].chord = 1e100,
+                "r/R = 1 the chord is 1e100 m; it must lie between 0 and 100 m",
+            ),
+            (
+                |g| g.stations.iter_mut().for_each(|s| s.chord = 1e-5),
+                "largest chord of the blade is 1e-5 m; it must be 0.0001 m or more",
+            ),
+            (
+                |g| g.stations[0].twist = -4.0,
+                "r/R = 0.2 the twist is -229.183",
+            ),
+            (|g| g.stations[0].twist = f64::NAN, "twist is NaN deg"),
+            (
+                |g| g.stations[0].radius_ratio = 0.005,
+                "the first at r/R = 0.01 to 0.95",
+            ),
+            (
+                |g| g.stations.insert(1, g.stations[0].clone()),
+                "must go outwards",
+            ),
             (|g| g.stations[0].radius_ratio = 1.0, "must go outwards"),
             (|g| g.stations[1].radius_ratio = 0.9, "the last at r/R = 1"),
             (|g| g.stations.clear(), "no stations"),
@@ -235,11 +322,23 @@ mod tests {
         }
     }
 
+    /// A rounded tip, and twist that a file gives in degrees.
     #[test]
-    fn twist_counts_from_the_pitch_reference_radius() {
+    fn the_ends_of_the_ranges_are_permitted() {
+        let mut geometry = Geometry::linear(3, *RADIUS.end(), *CUTOUT.start(), 1e-4, 1.0, PI);
+        assert_eq!(geometry.check(), Ok(()));
+        geometry.stations[0].twist = (-180.0_f64).to_radians();
+        geometry.stations[1].chord = 0.0;
+        assert_eq!(geometry.check(), Ok(()));
+    }
+
+    #[test]
+    fn chord_solidity_and_twist_from_the_pitch_reference_radius() {
         let mut geometry = Geometry::linear(3, 1.0, 0.2, 0.1, 1.0, -0.1);
         assert!((geometry.twist(1.0) + 0.1).abs() < 1e-15);
         assert!((geometry.twist(0.5) + 0.05).abs() < 1e-15);
+        assert_eq!((geometry.chord(1.0), geometry.largest_chord()), (0.1, 0.1));
+        assert!((geometry.solidity() - 3.0 * 0.08 / PI).abs() < 1e-15);
         geometry.pitch_reference_radius = 0.75;
         assert!(geometry.twist(0.75).abs() < 1e-15);
         assert!((geometry.twist(1.0) + 0.025).abs() < 1e-15);

@@ -1,6 +1,7 @@
 //! The states from which a rotor starts.
 
 mod balance;
+mod collocation;
 mod periodic;
 mod steady_inflow;
 mod unknowns;
@@ -15,6 +16,7 @@ use super::{
     state::State,
     workspace::Workspace,
 };
+use collocation::Collocation;
 use core::f64::consts::PI;
 use num_dual::Dual64;
 use unknowns::Unknowns;
@@ -23,51 +25,93 @@ use unknowns::Unknowns;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Start {
     /// In a periodic state, in which each blade repeats the motion of the one before it, or, with
-    /// loads averaged over one revolution, in a steady state. Blades of a rotor that is stopped or
-    /// turns very slowly are in balance where they are.
+    /// loads averaged over one revolution, in a steady state. Blades of a stopped rotor are in
+    /// balance where they are.
     Steady,
     /// Without induced velocity, the blades at the precone angle.
     Rest,
+}
+
+/// The state from which a rotor starts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Started {
+    /// The state, with blade 1 at the tail.
+    pub state: State,
+    /// Whether it is what `Start` asks for. If not, no such state was found, and this is the nearest
+    /// that is known: the inflow of momentum theory, with the blades at the precone angle.
+    pub is_found: bool,
 }
 
 /// Tolerance of the states, each divided by its scale in `Unknowns`.
 const TOLERANCE: f64 = 1e-10;
 
 impl Rotor {
-    /// The state at the start, with blade 1 at the tail. `azimuth_step` (rad) is the maximum step.
-    /// Fails if no steady or periodic state is found.
+    /// The state at the start. `azimuth_step` (rad) is the maximum step. The work of the search is
+    /// bounded. Fails where a momentum equation has no solution.
     pub fn start(
         &self,
         point: &OperatingPoint,
         start: Start,
         azimuth_step: f64,
         workspace: &mut Workspace,
-    ) -> Result<State, SolveError> {
+    ) -> Result<Started, SolveError> {
         let precone = Flap::rigid(self.models().hinge.precone);
         let mut state = State::default();
         state.flaps[..self.flapping_blades()].fill(precone);
         let point = &at_imposed_speed(point);
         state.speed = point.speed;
+        let found = |state| Started {
+            state,
+            is_found: true,
+        };
         if start == Start::Rest || !self.has_memory(point) {
-            return Ok(state);
+            return Ok(found(state));
         }
+        let mut has_inflow = true;
         if self.models().inflow.state_count() > 0 {
-            state.inflow = steady_inflow::find(self, point, workspace)?;
+            let steady = steady_inflow::find(self, point, workspace)?;
+            (state.inflow, has_inflow) = (steady.states, steady.is_found);
         }
         if !self.evaluate(point, &state).is_individual() {
-            return Ok(state);
+            let is_found = has_inflow;
+            return Ok(Started { state, is_found });
         }
-        let mut state = periodic::find(self, point, state, azimuth_step, workspace)?;
+        let Some(collocation) = Collocation::new(self, point) else {
+            // A stopped rotor has no motion that repeats itself.
+            return Ok(found(balance::find(self, point, &state, workspace)?));
+        };
+        let balanced = balance::without_air(self, point, &state);
+        if balance::is_on_stop(self, &balanced) {
+            state = balanced;
+        }
+        let motion = collocation.find(point, &state);
+        let guess = motion.unwrap_or(state);
+        // Exactly periodic with the steps of the simulation, where that is not too much work.
+        let exact = periodic::find(
+            self,
+            point,
+            guess,
+            motion.is_some(),
+            azimuth_step,
+            workspace,
+        );
+        let exact = if motion.is_none() && exact.is_none() {
+            periodic::turn(self, point, guess, azimuth_step, workspace)
+        } else {
+            exact
+        };
+        let is_found = motion.is_some() || exact.is_some();
+        let mut state = exact.unwrap_or(guess);
         state.speed = point.speed;
-        Ok(state)
+        Ok(Started { state, is_found })
     }
 
     /// Hub loads in steady flight. Where they vary with azimuth, they are those with blade 1 at the
     /// tail. Allocates a workspace; fails as `start` and `respond` do.
     pub fn steady(&self, point: &OperatingPoint) -> Result<HubLoads, SolveError> {
         let mut workspace = Workspace::new(self);
-        let state = self.start(point, Start::Steady, PI / 60.0, &mut workspace)?;
-        Ok(self.respond(point, &state, &mut workspace)?.hub)
+        let started = self.start(point, Start::Steady, PI / 60.0, &mut workspace)?;
+        Ok(self.respond(point, &started.state, &mut workspace)?.hub)
     }
 
     /// The state at the start with its derivatives in the direction of those of `dual`. `plain` is
@@ -94,12 +138,21 @@ impl Rotor {
         if start == Start::Rest || !self.has_memory(plain) {
             return Ok(state);
         }
-        let steps = if self.evaluate(dual, &state).is_individual() {
+        let is_individual = self.evaluate(dual, &state).is_individual();
+        let steps = if is_individual {
             periodic::steps(self, plain, found, azimuth_step)
         } else {
             None
         };
-        if steps.is_none() {
+        if is_individual
+            && steps.is_none()
+            && let Some(collocation) = Collocation::new(self, plain)
+        {
+            let moves = collocation.derivative((plain, dual), found);
+            add_changes(&mut state, &moves.ok_or(SolveError::NoSteadyState)?);
+            return Ok(state);
+        }
+        if is_individual && steps.is_none() {
             state = balance::find(self, dual, &state, workspace)?;
         }
         let unknowns = match steps {
@@ -116,16 +169,26 @@ impl Rotor {
                 None => Ok(unknowns.of(&steady_inflow::rates(self, dual, &state, workspace)?)),
             }
         })?;
-        let moves = unknowns.state(&moves.ok_or(SolveError::NoSteadyState)?);
-        for (value, change) in state.inflow.iter_mut().zip(moves.inflow) {
-            value.eps = change;
+        let mut moves = unknowns.state(&moves.ok_or(SolveError::NoSteadyState)?);
+        if steps.is_none() {
+            // Those of the balance, or 0.
+            moves.flaps = state.flaps.map(|flap| Flap {
+                angle: flap.angle.eps,
+                rate: flap.rate.eps,
+            });
         }
-        if steps.is_some() {
-            for (flap, change) in state.flaps.iter_mut().zip(moves.flaps) {
-                (flap.angle.eps, flap.rate.eps) = (change.angle, change.rate);
-            }
-        }
+        add_changes(&mut state, &moves);
         Ok(state)
+    }
+}
+
+/// Gives the inflow and the flapping of a state their derivatives.
+fn add_changes(state: &mut State<Dual64>, changes: &State) {
+    for (value, change) in state.inflow.iter_mut().zip(changes.inflow) {
+        value.eps = change;
+    }
+    for (flap, change) in state.flaps.iter_mut().zip(changes.flaps) {
+        (flap.angle.eps, flap.rate.eps) = (change.angle, change.rate);
     }
 }
 

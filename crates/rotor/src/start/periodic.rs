@@ -3,7 +3,7 @@
 //! shooting, as for limit cycles (Seydel 2010, "Practical Bifurcation and Stability
 //! Analysis", ch. 7).
 
-use super::{TOLERANCE, balance, unknowns::Unknowns};
+use super::{TOLERANCE, unknowns::Unknowns};
 use crate::{
     error::SolveError, newton, operating_point::OperatingPoint, rotor::Rotor, scalar::Scalar,
     state::State, workspace::Workspace,
@@ -16,70 +16,39 @@ use nalgebra::DVector;
 /// simulation.
 const STEP_FOR_SLOPES: f64 = PI / 12.0;
 
-/// Maximum number of steps in a blade passage. Rotors that need more, because they turn slowly, do
-/// not start from a periodic state.
-const MAX_STEPS: f64 = 3000.0;
+/// Maximum number of steps in a blade passage. Rotors that need more, because they turn slowly or
+/// have stiff blades, start from the motion of `collocation`.
+const MAX_STEPS: f64 = 600.0;
 
-/// Maximum number of steps of the search in all. Successful searches take a tenth.
-const MAX_STEPS_IN_ALL: f64 = 20_000.0;
+/// Maximum number of steps of the search in all, from a motion that `collocation` has found, and
+/// where it has found none. Successful searches take a third.
+const MAX_STEPS_IN_ALL: [f64; 2] = [6000.0, 1500.0];
 
 /// Maximum number of steps of a rotor that turns until its motion repeats itself. Flapping that air
 /// alone damps takes 3000.
-const MAX_STEPS_OF_TURNING: f64 = 10_000.0;
+const MAX_STEPS_OF_TURNING: f64 = 6000.0;
 
-/// Maximum product of a step and the rate of a stop; Heun's method is stable to 2.5 for damped
-/// motion.
-const MAX_PRODUCT_AT_STOPS: f64 = 2.5;
-
-/// The periodic state, searched from `guess`. For a rotor that is stopped or turns too slowly, it is
-/// the balance of blades at rest. Fails if the search finds none.
-///
-/// If blades that are in balance lie on a stop, the search starts from this balance, and the rotor
-/// turns for a while first: a stop damps so strongly that the motion soon repeats itself, whereas
-/// the slopes for Newton's method jump where a blade meets a stop. The rotor also turns for a while
-/// if Newton's method fails.
+/// The periodic state, searched from `guess`, which `is_motion` of `collocation` or not; none if the search fails, or if a blade passage takes
+/// too many steps.
 pub(super) fn find(
     rotor: &Rotor,
     point: &OperatingPoint,
     guess: State,
+    is_motion: bool,
     azimuth_step: f64,
     workspace: &mut Workspace,
-) -> Result<State, SolveError> {
-    let balanced = balance::without_air(rotor, point, &guess);
-    let is_on_stop = balance::is_on_stop(rotor, &balanced);
-    let guess = if is_on_stop { balanced } else { guess };
-    let Some(steps) = steps(rotor, point, &guess, azimuth_step) else {
-        return balance::find(rotor, point, &guess, workspace);
+) -> Option<State> {
+    let count = |longest: f64| steps(rotor, point, &guess, longest);
+    let steps = count(azimuth_step)?;
+    // Stiff blades, which need more steps than the azimuth, need the same for their slopes.
+    let coarse = cells(rotor, point, azimuth_step.max(STEP_FOR_SLOPES));
+    let steps_for_slopes = match count(azimuth_step.max(STEP_FOR_SLOPES)) {
+        Some(steps) if steps == coarse => steps,
+        Some(_) | None => steps,
     };
-    let steps_for_slopes = steps_for_slopes(rotor, point, &guess, azimuth_step).unwrap_or(steps);
     let unknowns = Unknowns::of_periodic_state(rotor, point);
-    let passed = |x: &DVector<f64>, steps, workspace: &mut Workspace| {
-        let passed = after_passage(rotor, point, &unknowns.state(x), steps, workspace)?;
-        Ok(unknowns.of(&passed))
-    };
-    // The state after so many passages that another one changes nothing, or the last one.
-    let turn = |mut x: DVector<f64>, workspace: &mut Workspace| -> Result<_, SolveError> {
-        let passages = MAX_STEPS_OF_TURNING / steps;
-        for _ in 0..passages as u32 {
-            let next = passed(&x, steps, workspace)?;
-            let change = (&next - &x).norm();
-            x = next;
-            if change <= TOLERANCE {
-                return Ok((x, true));
-            }
-        }
-        Ok((x, false))
-    };
-    let mut start = unknowns.of(&guess);
-    if is_on_stop {
-        let is_found;
-        (start, is_found) = turn(start, workspace)?;
-        if is_found {
-            return Ok(unknowns.state(&start));
-        }
-    }
-    let mut left = MAX_STEPS_IN_ALL;
-    let residual = |x: &DVector<f64>, purpose| {
+    let mut left = MAX_STEPS_IN_ALL[usize::from(!is_motion)];
+    let residual = |x: &DVector<f64>, purpose| -> Result<DVector<f64>, SolveError> {
         let steps = match purpose {
             newton::Use::Value => steps,
             newton::Use::Slopes => steps_for_slopes,
@@ -88,33 +57,38 @@ pub(super) fn find(
         if left < 0.0 {
             return Err(SolveError::NoSteadyState);
         }
-        Ok(passed(x, steps, workspace)? - x)
+        let passed = after_passage(rotor, point, &unknowns.state(x), steps, workspace)?;
+        Ok(unknowns.of(&passed) - x)
     };
-    match newton::solve(start.clone(), TOLERANCE, residual) {
-        Ok(Some(found)) => return Ok(unknowns.state(&found)),
-        Ok(None) | Err(SolveError::NoSteadyState) => {}
-        Err(error) => return Err(error),
-    }
-    match turn(start, workspace)? {
-        (found, true) => Ok(unknowns.state(&found)),
-        (_, false) => Err(SolveError::NoSteadyState),
-    }
+    let found = newton::solve(unknowns.of(&guess), TOLERANCE, residual);
+    Some(unknowns.state(&found.ok()??))
 }
 
-/// Number of steps in a blade passage for the slopes; none if those of the state will do. Stops need
-/// shorter steps than flapping, and the motion of a slow rotor may meet them.
-fn steps_for_slopes(
+/// The periodic state that the rotor reaches by turning from `guess`; none if it does not repeat
+/// itself in time, or if a blade passage takes too many steps.
+///
+/// Where blades meet stops, the slopes for Newton's method jump. The stops damp the motion so
+/// strongly that it soon repeats itself.
+pub(super) fn turn(
     rotor: &Rotor,
     point: &OperatingPoint,
-    state: &State,
+    guess: State,
     azimuth_step: f64,
-) -> Option<f64> {
-    let longest = azimuth_step.max(STEP_FOR_SLOPES);
-    let rate = rotor.evaluate(point, state).stop_rate();
-    if rate * longest / point.speed.abs() > MAX_PRODUCT_AT_STOPS {
-        return None;
+    workspace: &mut Workspace,
+) -> Option<State> {
+    let steps = steps(rotor, point, &guess, azimuth_step)?;
+    let unknowns = Unknowns::of_periodic_state(rotor, point);
+    let mut x = unknowns.of(&guess);
+    for _ in 0..(MAX_STEPS_OF_TURNING / steps) as u32 {
+        let passed = after_passage(rotor, point, &unknowns.state(&x), steps, workspace).ok()?;
+        let next = unknowns.of(&passed);
+        let change = (&next - &x).norm();
+        x = next;
+        if change <= TOLERANCE {
+            return Some(unknowns.state(&x));
+        }
     }
-    steps(rotor, point, state, longest)
+    None
 }
 
 /// Number of steps in a blade passage, each at most `longest` (rad); none for a rotor that is
@@ -128,10 +102,15 @@ pub(super) fn steps(
     if point.speed == 0.0 {
         return None;
     }
-    let passage = passage(rotor, point);
-    let cells = libm::ceil(passage * point.speed / longest * (1.0 - 1e-9)).max(1.0);
-    let steps = cells * rotor.stable_steps(point, state, passage / cells);
+    let cells = cells(rotor, point, longest);
+    let steps = cells * rotor.stable_steps(point, state, passage(rotor, point) / cells);
     (steps <= MAX_STEPS).then_some(steps)
+}
+
+/// Number of steps in a blade passage, each at most `longest` (rad), by azimuth alone.
+fn cells(rotor: &Rotor, point: &OperatingPoint, longest: f64) -> f64 {
+    let turn = passage(rotor, point) * point.speed;
+    libm::ceil(turn / longest * (1.0 - 1e-9)).max(1.0)
 }
 
 /// The state after a blade passage, with the blades renumbered so that it equals `state` if that is

@@ -15,12 +15,20 @@ use crate::{
 };
 use nalgebra::DVector;
 
-/// The steady inflow states, in the axes of the hub. Fails if the search finds none.
+/// Inflow states at the start.
+pub(super) struct SteadyInflow {
+    /// In the axes of the hub.
+    pub(super) states: InflowStates,
+    /// Whether they are steady. If not, they are about those of momentum theory.
+    pub(super) is_found: bool,
+}
+
+/// The steady inflow states.
 pub(super) fn find(
     rotor: &Rotor,
     point: &OperatingPoint,
     workspace: &mut Workspace,
-) -> Result<InflowStates, SolveError> {
+) -> Result<SteadyInflow, SolveError> {
     let inflow = &rotor.models().inflow;
     let radius = rotor.geometry().radius;
     let at_rest = State::default();
@@ -28,7 +36,10 @@ pub(super) fn find(
     let flow = &evaluation.flow;
     let speed = flow.rotation.abs() * radius + flow.edgewise + flow.climb.abs();
     if speed == 0.0 {
-        return Ok(at_rest.inflow);
+        return Ok(SteadyInflow {
+            states: at_rest.inflow,
+            is_found: true,
+        });
     }
     // The search starts from the static inflow model: the slopes of the field, which are 0 in axial
     // symmetry, then have their order of magnitude in edgewise flow.
@@ -46,9 +57,19 @@ pub(super) fn find(
         let rates = rates(rotor, point, &unknowns.state(x), workspace)?;
         let scaled = rates.inflow[..count].iter().map(|r| r * per_rate);
         Ok(DVector::from_iterator(count, scaled))
-    })?;
-    let found = found.ok_or(SolveError::NoSteadyState)?;
-    Ok(unknowns.state(&found).inflow)
+    });
+    // An error here comes from a guess far off: the momentum equation was solved above.
+    let found: Result<_, SolveError> = found;
+    Ok(match found {
+        Ok(Some(found)) => SteadyInflow {
+            states: unknowns.state(&found).inflow,
+            is_found: true,
+        },
+        Ok(None) | Err(_) => SteadyInflow {
+            states: guess.inflow,
+            is_found: false,
+        },
+    })
 }
 
 /// Rates of the states, averaged over one revolution.

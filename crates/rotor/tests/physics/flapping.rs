@@ -7,7 +7,7 @@ use crate::support::{
 };
 use nalgebra::Vector3;
 use rotor::{
-    Blades, Models, OperatingPoint, Rotor, State, Workspace,
+    Blades, Models, OperatingPoint, Rotor, Start, Started, State, Workspace,
     air::STANDARD_GRAVITY,
     disc::Flap,
     flapping::{BladeMass, Freedom, Hinge, Stops},
@@ -549,6 +549,74 @@ fn a_steady_start_in_forward_flight_repeats_itself() {
         );
         assert!((start.flaps[0].angle - start.flaps[2].angle).abs() > 1e-3);
     }
+}
+
+/// The stiffer the blades, the less they bend: k beta is the moment of the lift. Springs at which
+/// blades vibrate in time with their passage are among these.
+#[test]
+fn a_steady_start_is_found_however_stiff_the_blades_are() {
+    let rotor = Build {
+        inflow: Inflow::PittPetersDynamic,
+        elements: 10,
+        ..Build::default()
+    }
+    .rotor();
+    let mut previous = None;
+    for spring in [0.0, 1e2, 1e4, 1e5, 2e5, 5e5, 1e6, 1e8, 1e10] {
+        let point = OperatingPoint {
+            hinge_spring: spring,
+            ..flight(0.1, Vector3::new(25.0, 0.0, 1.0))
+        };
+        let mut workspace = Workspace::new(&rotor);
+        let started = rotor.start(&point, Start::Steady, STEP, &mut workspace);
+        let Started { state, is_found } = started.unwrap();
+        assert!(is_found, "spring {spring}");
+        let largest = state
+            .flaps
+            .iter()
+            .map(|f| f.angle.abs())
+            .fold(0.0, f64::max);
+        if let Some((spring_before, largest_before)) = previous.replace((spring, largest))
+            && spring_before >= 1e5
+        {
+            close(
+                largest * spring / (largest_before * spring_before),
+                1.0,
+                0.03,
+                "stiffness",
+            );
+        }
+    }
+}
+
+/// The flap angle of the start is that to which the blades settle in time.
+#[test]
+fn a_rotor_too_slow_to_integrate_over_a_blade_passage_starts_in_its_motion() {
+    let rotor = Build {
+        inflow: Inflow::Linear(Skew::Uniform),
+        elements: 6,
+        ..Build::default()
+    }
+    .rotor();
+    // A blade passage of 0.16 s takes 5,000 steps at 32,000 rad/s.
+    let point = OperatingPoint {
+        speed: 0.1 * SPEED,
+        hinge_spring: 1e9 * INERTIA,
+        ..flight(0.1, Vector3::new(3.0, 0.0, 0.0))
+    };
+    let mut workspace = Workspace::new(&rotor);
+    let started = rotor
+        .start(&point, Start::Steady, STEP, &mut workspace)
+        .unwrap();
+    assert!(started.is_found);
+    let rates = rotor.rates(&point, &started.state, &mut workspace).unwrap();
+    let [angle, acceleration] = [started.state.flaps[0].angle, rates.flaps[0].rate];
+    assert!(angle.abs() > 1e-9);
+    // The blade follows its load: what is left of k beta/I in its acceleration is small.
+    assert!(
+        (acceleration / (1e9 * angle)).abs() < 1e-3,
+        "{acceleration} {angle}"
+    );
 }
 
 /// Hub loads and rates, with the blades turned together with everything else.

@@ -36,8 +36,8 @@ fn lift_equals_the_momentum_given_to_the_air() {
         let rotor = two_blades(Inflow::Elements(ElementInflow::Annulus), tip_loss, 0.08);
         let point = flight(collective, Vector3::new(0.0, 0.0, climb));
         let mut workspace = Workspace::new(&rotor);
-        let state = rotor.start(&point, Start::Steady, STEP, &mut workspace);
-        let response = rotor.respond(&point, &state.unwrap(), &mut workspace);
+        let started = rotor.start(&point, Start::Steady, STEP, &mut workspace);
+        let response = rotor.respond(&point, &started.unwrap().state, &mut workspace);
         let blade = response.unwrap().blade;
         for (radius, load) in blade.radii().iter().zip(blade.elements()) {
             let through = climb + load.induced_velocity;

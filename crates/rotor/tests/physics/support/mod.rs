@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 use rotor::{
-    HubLoads, Models, OperatingPoint, Rotor, Start, State, TipPath, Workspace,
+    HubLoads, Models, OperatingPoint, Rotor, Start, Started, State, TipPath, Workspace,
     air::Air,
     airfoil::{Airfoil, Lift, SectionModel},
     compressibility::Compressibility,
@@ -100,8 +100,9 @@ pub fn reference_force() -> f64 {
 /// The steady start, and the hub loads there.
 pub fn steady(rotor: &Rotor, point: &OperatingPoint) -> (State, HubLoads) {
     let mut workspace = Workspace::new(rotor);
-    let state = rotor.start(point, Start::Steady, STEP, &mut workspace);
-    let state = state.unwrap();
+    let started = rotor.start(point, Start::Steady, STEP, &mut workspace);
+    let Started { state, is_found } = started.unwrap();
+    assert!(is_found);
     let response = rotor.respond(point, &state, &mut workspace).unwrap();
     (state, response.hub)
 }
