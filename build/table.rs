@@ -143,7 +143,11 @@ impl Table {
         let derivatives = derivatives
             .collect::<Result<Vec<_>, _>>()
             .map_err(|e| format!("{variables}: {e}"))?;
-        table.variables.extend(derivatives);
+        // The derivatives follow the last state. What is added after it does not change their value
+        // references.
+        let last = table.variables.iter().rposition(|v| v.nominal.is_some());
+        let end = last.map_or(table.variables.len(), |i| i + 1);
+        table.variables.splice(end..end, derivatives);
         table.check().map_err(|e| format!("{variables}: {e}"))?;
         Ok(table)
     }

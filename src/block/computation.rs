@@ -2,6 +2,7 @@
 
 use super::{
     BlockError, Fresh, Note, RotorBlock, Stage, airfoils,
+    beyond_stops::BeyondStopsNotice,
     files::{self, FileHash, ReadFile},
     flight_condition::FlightCondition,
     integrate::Memory,
@@ -77,6 +78,8 @@ impl RotorBlock {
             return Ok(Arc::clone(rotor));
         }
         let (rotor, files) = setup::rotor(&self.values, &self.resources)?;
+        let unused = setup::unused_lock_number(&self.values);
+        self.notes.extend(unused.map(Note::Warning));
         Ok(self.take_over(rotor, files))
     }
 
@@ -89,6 +92,7 @@ impl RotorBlock {
         let saved = std::mem::take(&mut self.saved_files);
         self.compare_files(&saved);
         self.outside_data = OutsideDataNotice::default();
+        self.beyond_stops = BeyondStopsNotice::default();
         Arc::clone(self.rotor.insert(Arc::new(rotor)))
     }
 
@@ -130,6 +134,8 @@ impl RotorBlock {
         self.fresh = Fresh::All;
         let outside = self.outside_data.next(&rotor, &response.blade);
         self.notes.extend(outside.map(Note::Event));
+        let beyond = self.beyond_stops.next(&rotor, &self.memory.state);
+        self.notes.extend(beyond.map(Note::Warning));
         Ok(())
     }
 

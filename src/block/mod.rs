@@ -11,9 +11,10 @@
 //! * `derivative`: directional derivatives
 //! * `snapshot`: the block's state, saved and restored
 //! * `location`, `files`: where files are, and whether they have changed
-//! * `shown`, `outside_data`, `plausibility`: texts for messages
+//! * `shown`, `outside_data`, `plausibility`, `beyond_stops`: texts for messages
 
 mod airfoils;
+mod beyond_stops;
 mod co_simulation;
 mod computation;
 mod derivative;
@@ -43,6 +44,7 @@ pub use setup::SetupError;
 pub use snapshot::{Contradiction, Snapshot};
 pub use values::{Stage, ValueError, Values};
 
+use beyond_stops::BeyondStopsNotice;
 use files::{FileHash, ReadFile};
 use integrate::Memory;
 use known_rates::KnownRates;
@@ -126,6 +128,7 @@ pub struct RotorBlock {
     /// Sentences for the log since the last call of `take_notes`.
     notes: Vec<Note>,
     outside_data: OutsideDataNotice,
+    beyond_stops: BeyondStopsNotice,
 }
 
 impl RotorBlock {
@@ -149,6 +152,7 @@ impl RotorBlock {
             fresh: Fresh::Nothing,
             notes: Vec::new(),
             outside_data: OutsideDataNotice::default(),
+            beyond_stops: BeyondStopsNotice::default(),
         }
     }
 
@@ -163,8 +167,8 @@ impl RotorBlock {
     }
 
     /// Returns the sentences for the log that have come up since the last call: the files that
-    /// were read, files that have changed since a state was saved, implausible values, and flow
-    /// outside the data of an airfoil file.
+    /// were read, files that have changed since a state was saved, implausible values, flow outside
+    /// the data of an airfoil file, and blades far beyond their stops.
     pub fn take_notes(&mut self) -> Vec<Note> {
         std::mem::take(&mut self.notes)
     }

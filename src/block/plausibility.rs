@@ -347,7 +347,9 @@ fn lock_number(geometry: &Geometry, inertia: f64, density: f64) -> f64 {
 }
 
 fn lock(start: &Initialized) -> Option<String> {
-    let inertia = start.rotor.models().hinge.freedom?.inertia;
+    let hinge = &start.rotor.models().hinge;
+    hinge.freedom?;
+    let inertia = hinge.mass.inertia;
     let geometry = start.rotor.geometry();
     let lock = lock_number(geometry, inertia, start.point.air.density);
     (!(LOCK_NUMBERS.0..=LOCK_NUMBERS.1).contains(&lock)).then(|| {

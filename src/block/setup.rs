@@ -16,8 +16,8 @@ use rotor::{
     Blades, Models, Rotor, Start,
     airfoil::{AirfoilError, Lift, SectionModel},
     compressibility::Compressibility,
-    flapping::{Freedom, Hinge},
-    geometry::{self, Elements, Geometry, GeometryError, RotorFileError},
+    flapping::{BladeMass, Freedom, Hinge, Stops},
+    geometry::{self, BladeInertia, Elements, Geometry, GeometryError, RotorFileError},
     inflow::{Descent, ElementInflow, GroundEffect, Inflow, Skew},
     state::MAX_FLAPPING_BLADES,
     tip_loss::TipLoss,
@@ -63,6 +63,14 @@ pub enum SetupError {
         "models.groundEffect with models.inflow = annulusClosedForm, which holds in free air only; set another inflow model, or models.groundEffect to none"
     )]
     ClosedFormNearGround,
+    #[error(
+        "flapping.precone = {precone} rad lies beyond the stops of the blades, flapping.lowestAngle = {lowest} rad and flapping.highestAngle = {highest} rad; set it between them, or move the stops"
+    )]
+    PreconeBeyondStops {
+        precone: f64,
+        lowest: f64,
+        highest: f64,
+    },
     #[error("{name} = {value}, which is not the number of a choice; set one of its choices")]
     Choice { name: &'static str, value: i32 },
 }
@@ -247,12 +255,26 @@ fn hinge(
 ) -> Result<Hinge, SetupError> {
     let reals = &values.reals;
     let offset = reals[real::FLAPPING__HINGE_OFFSET] * geometry.radius;
+    let length = geometry.radius - offset;
+    let mass = BladeMass::rod(blade_inertia(values, geometry), length);
     let freedom = values.booleans[boolean::FLAPPING__ENABLED].then(|| Freedom {
-        inertia: reals[real::FLAPPING__INERTIA],
         pitch_flap: libm::tan(reals[real::FLAPPING__DELTA3]),
-        length: geometry.radius - offset,
+        length,
+        stops: Stops {
+            lowest: reals[real::FLAPPING__LOWEST_ANGLE],
+            highest: reals[real::FLAPPING__HIGHEST_ANGLE],
+        },
     });
-    if freedom.is_some() {
+    let precone = reals[real::FLAPPING__PRECONE];
+    if let Some(freedom) = freedom {
+        if freedom.stops.excess(precone) > 0.0 {
+            let Stops { lowest, highest } = freedom.stops;
+            return Err(SetupError::PreconeBeyondStops {
+                precone,
+                lowest,
+                highest,
+            });
+        }
         if geometry.blades as usize > MAX_FLAPPING_BLADES {
             let blades = geometry.blades;
             return Err(SetupError::TooManyFlappingBlades { blades });
@@ -266,8 +288,35 @@ fn hinge(
     }
     Ok(Hinge {
         offset,
-        precone: reals[real::FLAPPING__PRECONE],
+        precone,
+        mass,
         freedom,
+    })
+}
+
+/// The moment of inertia of one blade about its hinge, kg.m2: from the parameters, otherwise from
+/// the rotor file, otherwise in proportion to the default rotor's.
+fn blade_inertia(values: &Values, geometry: &Geometry) -> f64 {
+    let inertia = values.reals[real::FLAPPING__INERTIA];
+    let number = values.reals[real::FLAPPING__LOCK_NUMBER];
+    let known_from = if inertia > 0.0 {
+        BladeInertia::Moment(inertia)
+    } else if number > 0.0 {
+        BladeInertia::LockNumber(number)
+    } else {
+        geometry.inertia.unwrap_or(BladeInertia::LikeDefaultRotor)
+    };
+    known_from.moment(geometry)
+}
+
+/// A warning if the inertia of the blades is given twice.
+pub fn unused_lock_number(values: &Values) -> Option<String> {
+    let inertia = values.reals[real::FLAPPING__INERTIA];
+    let number = values.reals[real::FLAPPING__LOCK_NUMBER];
+    (inertia > 0.0 && number > 0.0).then(|| {
+        format!(
+            "flapping.inertia = {inertia} kg.m2 and flapping.lockNumber = {number} both give the inertia of the blades, and flapping.inertia is used; set one of them to 0"
+        )
     })
 }
 
@@ -293,4 +342,97 @@ pub fn choice<T>(
     let value = values.integers[reference];
     let name = reference.variable().name;
     from_integer(value).ok_or(SetupError::Choice { name, value })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{BlockError, Note, RotorBlock, flight_condition::FlightCondition};
+    use super::*;
+    use std::f64::consts::PI;
+
+    const RESOURCES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/resources");
+
+    type TestResult = Result<(), Box<dyn std::error::Error>>;
+
+    fn flapping_block(file: &str) -> Result<RotorBlock, Box<dyn std::error::Error>> {
+        let mut block = RotorBlock::new(RESOURCES.into());
+        block.set_booleans(&[boolean::FLAPPING__ENABLED], &[1])?;
+        block.set_strings(&[string::GEOMETRY__FILE], &[file])?;
+        Ok(block)
+    }
+
+    fn inertia(block: &mut RotorBlock) -> Result<f64, BlockError> {
+        Ok(block.rotor()?.models().hinge.mass.inertia)
+    }
+
+    #[test]
+    fn a_parameter_wins_over_the_file_and_the_file_over_the_default() -> TestResult {
+        for (file, moment, number, expected) in [
+            ("", 0.0, 0.0, 0.05),
+            ("", 0.02, 0.0, 0.02),
+            ("", 0.0, 2.391_831_6, 0.05),
+            ("pca-2.toml", 0.0, 0.0, 452.8),
+            ("pca-2.toml", 300.0, 0.0, 300.0),
+            ("pca-2.toml", 0.0, 19.058, 452.8),
+            (
+                "caradonna-tung.toml",
+                0.0,
+                0.0,
+                0.05 * (0.1905 / 0.0508) * 5.0625,
+            ),
+        ] {
+            let mut block = flapping_block(file)?;
+            let references = [real::FLAPPING__INERTIA, real::FLAPPING__LOCK_NUMBER];
+            block.set_reals(&references, &[moment, number])?;
+            let found = inertia(&mut block)?;
+            assert!((found / expected - 1.0).abs() < 1e-4, "{file}: {found}");
+        }
+        let default = inertia(&mut flapping_block("")?)?;
+        assert_eq!(default.to_bits(), 0.05_f64.to_bits());
+        let mut block = flapping_block("")?;
+        let references = [real::FLAPPING__INERTIA, real::FLAPPING__LOCK_NUMBER];
+        block.set_reals(&references, &[0.02, 8.0])?;
+        assert_eq!(inertia(&mut block)?, 0.02);
+        let notes = block.take_notes();
+        let is_warning = |note: &Note| matches!(note, Note::Warning(text) if text.contains("flapping.inertia is used"));
+        assert!(notes.iter().any(is_warning), "{notes:?}");
+        Ok(())
+    }
+
+    /// With nothing set but flapping, rotors of all sizes take about as many steps in 10 ms as the
+    /// default rotor, and start in a periodic state instead of at rest.
+    #[test]
+    fn blades_of_any_size_flap_at_the_cost_of_the_default_rotor() -> TestResult {
+        let steps = |block: &mut RotorBlock| -> Result<f64, Box<dyn std::error::Error>> {
+            block.start()?;
+            let point = FlightCondition::new(block.values())?.point;
+            let rotor = block.rotor()?;
+            Ok(rotor.stable_steps(&point, &block.memory.state, 0.01))
+        };
+        let default = steps(&mut flapping_block("")?)?;
+        let mut large = flapping_block("")?;
+        let references = [real::GEOMETRY__RADIUS, real::GEOMETRY__CHORD, real::RPM];
+        large.set_reals(&references, &[7.3, 0.53, 324.0])?;
+        for (name, mut block) in [
+            ("pca-2.toml", flapping_block("pca-2.toml")?),
+            ("radius 7.3 m", large),
+            ("thesis.toml", flapping_block("thesis.toml")?),
+        ] {
+            let found = steps(&mut block)?;
+            assert!(found <= 5.0 * default, "{name}: {found}, default {default}");
+            let coning = real::CONING;
+            let start = block.values().reals[coning];
+            assert!(start.abs() > 1e-3, "{name} starts at rest: {start}");
+            // After a blade passage each blade is where the next one was.
+            let passage = 60.0 / block.values().reals[real::RPM] / 4.0;
+            let before = block.memory.state.flaps;
+            block.step(passage)?;
+            let after = block.memory.state.flaps;
+            for (k, flap) in after.iter().enumerate().take(4) {
+                let change = (flap.angle - before[(k + 1) % 4].angle).abs();
+                assert!(change < 1e-6 * PI, "{name}: {change:e}");
+            }
+        }
+        Ok(())
+    }
 }

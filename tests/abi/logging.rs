@@ -424,3 +424,33 @@ fn the_logger_may_call_back_even_to_free_the_instance() {
     }
     assert_eq!(FREED.load(Ordering::Relaxed), 1);
 }
+
+/// A gale from below lifts the blades of a stopped rotor far beyond their flap stops: one warning,
+/// also while logging is off, and the calls succeed.
+#[test]
+fn blades_far_beyond_their_stops_are_a_warning() {
+    let instance = Instance::new();
+    assert_eq!(instance.set_boolean("flapping.enabled", 1), c::OK);
+    assert_eq!(instance.set_real("rpm", 0.0), c::OK);
+    assert_eq!(instance.set_real("wind[3]", 45.0), c::OK);
+    instance.begin_initialization();
+    assert_eq!(instance.exit_initialization(), c::OK);
+    for step in 0..3 {
+        assert_eq!(instance.step(0.01 * f64::from(step), 0.01), c::OK);
+    }
+    let log = instance.take_log();
+    let warnings: Vec<_> = log
+        .iter()
+        .filter(|line| {
+            line.message
+                .contains("far beyond the stop at flapping.highestAngle")
+        })
+        .collect();
+    let [line] = &warnings[..] else {
+        panic!("one warning is expected: {log:?}")
+    };
+    assert_eq!(
+        (line.status, line.category.as_str()),
+        (c::WARNING, "logStatusWarning")
+    );
+}

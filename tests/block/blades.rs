@@ -158,3 +158,94 @@ fn a_step_that_is_too_long_is_refused_at_once() {
     let outputs = |block: &RotorBlock| OUTPUTS.map(|reference| get(block, reference).to_bits());
     assert_eq!(outputs(&block), outputs(&other));
 }
+
+/// Coning, longitudinal and lateral flapping, rad, with which flapping blades start.
+fn tip_path_at_start(start: &str, blades: i32, wind: f64, rpm: f64) -> [f64; 3] {
+    let mut block = default_block();
+    enable_flapping(&mut block);
+    set_integer(&mut block, integer::NUMERICS__ELEMENTS, 5);
+    set_integer(&mut block, integer::GEOMETRY__NUMBER_OF_BLADES, blades);
+    choose(&mut block, integer::INITIALIZATION, start);
+    set(&mut block, real::RPM, rpm);
+    set(&mut block, real::VELOCITY_1, wind);
+    block.start().unwrap();
+    [
+        real::CONING,
+        real::LONGITUDINAL_FLAPPING,
+        real::LATERAL_FLAPPING,
+    ]
+    .map(|reference| get(&block, reference))
+}
+
+/// From standstill on, with one, two and four blades: wherever the tip path changes much between
+/// two speeds, it changes little between speeds that lie closer together.
+#[test]
+fn the_tip_path_is_continuous_in_the_rotor_speed() {
+    for (start, wind) in [("steady", 0.0), ("rest", 0.0), ("rest", 15.0)] {
+        for blades in [1, 2, 4] {
+            let at = |rpm: f64| (rpm, tip_path_at_start(start, blades, wind, rpm));
+            let mut left = at(0.0);
+            // The speeds still to come, the nearest last.
+            let mut ahead: Vec<_> = (1..=50).rev().map(|i| at(4.0 * f64::from(i))).collect();
+            ahead.insert(ahead.len(), at(0.1));
+            while let Some(right) = ahead.last().copied() {
+                let pairs = left.1.iter().zip(right.1);
+                let change = pairs.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                if change < 0.03 {
+                    left = right;
+                    ahead.pop();
+                    continue;
+                }
+                let width = right.0 - left.0;
+                assert!(
+                    width > 1e-3,
+                    "{start}, wind {wind}, {blades} blades: {left:?} {right:?}"
+                );
+                ahead.push(at(left.0 + 0.5 * width));
+            }
+        }
+    }
+}
+
+/// A stopped rotor begins on its droop stops, and stays there. With the shaft upside down it is on
+/// its flap stops.
+#[test]
+fn a_stopped_rotor_rests_on_its_stops() {
+    for (tilt, stop) in [(0.0, -0.2), (PI, 0.3)] {
+        for start in ["steady", "rest"] {
+            let mut block = default_block();
+            enable_flapping(&mut block);
+            choose(&mut block, integer::INITIALIZATION, start);
+            for (reference, value) in [
+                (real::RPM, 0.0),
+                (real::TILT, tilt),
+                (real::FLAPPING__LOWEST_ANGLE, -0.2),
+                (real::FLAPPING__HIGHEST_ANGLE, 0.3),
+            ] {
+                set(&mut block, reference, value);
+            }
+            block.start().unwrap();
+            let mut angle = get(&block, real::CONING);
+            if start == "rest" {
+                assert_eq!(angle, 0.0);
+                for _ in 0..300 {
+                    block.step(0.01).unwrap();
+                    let now = get(&block, real::CONING);
+                    assert!((-0.3..0.4).contains(&now), "{start}: {now}");
+                }
+                angle = get(&block, real::CONING);
+            }
+            let expected = stop + 0.01 * f64::signum(stop);
+            assert!((angle - expected).abs() < 1e-3, "{start}: {angle}");
+        }
+    }
+}
+
+#[test]
+fn a_precone_beyond_the_stops_is_refused() {
+    let mut block = flapping_block("annulus");
+    set(&mut block, real::FLAPPING__PRECONE, 0.1);
+    set(&mut block, real::FLAPPING__HIGHEST_ANGLE, 0.05);
+    let error = block.start().unwrap_err().to_string();
+    assert!(error.contains("lies beyond the stops"), "{error}");
+}

@@ -311,3 +311,83 @@ fn derivatives_are_those_of_the_restored_rotor() {
     let derivative = exact_along(&mut small, &[real::THRUST], real::COLLECTIVE, 1.0);
     assert_eq!(derivative, expected);
 }
+
+/// A blade exactly at a stop, blades at depths where the damper has a part of its strength and all
+/// of it, and one that leaves the stop so fast that the stop lets go.
+#[test]
+fn derivatives_at_the_stops_of_flapping_blades() {
+    for (lowest, highest) in [(-0.5, 0.25), (-0.25, 0.5)] {
+        let mut block = default_block();
+        enable_flapping(&mut block);
+        set_integer(&mut block, integer::NUMERICS__ELEMENTS, 12);
+        set(&mut block, real::FLAPPING__LOWEST_ANGLE, lowest);
+        set(&mut block, real::FLAPPING__HIGHEST_ANGLE, highest);
+        set(&mut block, real::FLAPPING__HINGE_OFFSET, 0.05);
+        set(&mut block, real::VELOCITY_1, 10.0);
+        block.start().unwrap();
+        block.begin_integration().unwrap();
+        let stop = if highest < -lowest { highest } else { lowest };
+        for (depth, rate) in [
+            (0.0, 2.0),
+            (0.0, -2.0),
+            (0.005, 1.0),
+            (0.03, 2.0),
+            (0.005, -9.0),
+        ] {
+            let (angle, rate) = (stop + depth * stop.signum(), rate * stop.signum());
+            set(&mut block, real::STATE__FLAP_ANGLE_1, angle);
+            set(&mut block, real::STATE__FLAP_RATE_1, rate);
+            block.update().unwrap();
+            for known in [
+                real::STATE__FLAP_ANGLE_1,
+                real::STATE__FLAP_RATE_1,
+                real::RPM,
+            ] {
+                to_both_sides(&mut block, known);
+            }
+        }
+    }
+}
+
+/// The steady start of a stopped rotor is the balance of its blades, in which the air has a part.
+#[test]
+fn derivatives_of_the_balance_of_blades_that_do_not_turn() {
+    let unknowns = [
+        real::CONING,
+        real::LONGITUDINAL_FLAPPING,
+        real::LATERAL_FLAPPING,
+    ];
+    for (spring, wind) in [(0.0, 0.0), (2.0, 0.0), (5.0, 3.0)] {
+        let mut block = default_block();
+        enable_flapping(&mut block);
+        set_integer(&mut block, integer::NUMERICS__ELEMENTS, 12);
+        for (reference, value) in [
+            (real::RPM, 0.0),
+            (real::FLAPPING__HINGE_SPRING, spring),
+            (real::TILT, 0.2),
+            (real::WIND_3, wind),
+        ] {
+            set(&mut block, reference, value);
+        }
+        for (known, step) in [(real::TILT, 1e-5), (real::FLAPPING__HINGE_SPRING, 1e-4)] {
+            block.update().unwrap();
+            let exact = exact_along(&mut block, &unknowns, known, 1.0);
+            let base = get(&block, known);
+            let mut at = |value: f64| {
+                set(&mut block, known, value);
+                block.update().unwrap();
+                unknowns.map(|u| get(&block, u))
+            };
+            let (one, two, unmoved) = (at(base + step), at(base + 2.0 * step), at(base));
+            for (k, exact) in exact.iter().enumerate() {
+                let difference = (4.0 * one[k] - 3.0 * unmoved[k] - two[k]) / (2.0 * step);
+                let error = (exact - difference).abs();
+                let what = known.variable().name;
+                assert!(
+                    error < 1e-6 + 1e-4 * exact.abs(),
+                    "spring {spring}, wind {wind}, {what}: {exact} {difference}"
+                );
+            }
+        }
+    }
+}

@@ -116,3 +116,40 @@ fn the_block_turns_motion_into_the_hub_frame_and_loads_out_of_it() {
     );
     close(hub.norm(), force.norm(), 1e-12, "turning keeps the length");
 }
+
+/// The default rotor, rolling to the right at 1 rad/s: N I Omega p = 20.1 N.m lower the nose, those
+/// of a clockwise rotor raise it; also with a torque that drives the shaft, at the speed that it
+/// has then. The rest is what the air does.
+#[test]
+fn rigid_blades_exert_their_gyroscopic_moment_on_a_rolling_hub() {
+    let gyroscopic = 4.0 * 0.05 * 960.0 * PI / 30.0;
+    assert!((gyroscopic - 20.1).abs() < 0.01);
+    let with = |inertia: f64, rotation: i32, drive: i32| {
+        computed(
+            &[
+                (real::ANGULAR_VELOCITY_1, 1.0),
+                (real::FLAPPING__INERTIA, inertia),
+            ],
+            &[
+                (integer::GEOMETRY__ROTATION, rotation),
+                (integer::DRIVE__MODE, drive),
+            ],
+        )
+    };
+    for (rotation, sense) in [(1, 1.0), (2, -1.0)] {
+        for drive in [1, 2] {
+            let (block, light) = (with(0.0, rotation, drive), with(1e-15, rotation, drive));
+            let moment = |reference: RealRef| get(&block, reference) - get(&light, reference);
+            close(
+                moment(real::HUB_MOMENT_2),
+                sense * gyroscopic,
+                1e-9,
+                "pitch",
+            );
+            close(moment(real::MOMENT_2), sense * gyroscopic, 1e-9, "ground");
+            assert!(moment(real::HUB_MOMENT_1).abs() < 1e-9);
+            assert_eq!(moment(real::HUB_MOMENT_3), 0.0);
+            assert_eq!(moment(real::TORQUE), 0.0);
+        }
+    }
+}

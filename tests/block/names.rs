@@ -269,3 +269,23 @@ fn published_variables_keep_their_names() {
     }
     assert!(count > 80, "{count} names");
 }
+
+/// What is added to the table goes after the derivatives of the states, so that importers that keep
+/// value references find the same variables.
+#[test]
+fn published_variables_keep_their_value_references() {
+    let description = description();
+    for (name, reference) in [
+        ("collective", "0"),
+        ("state.flapRate[8]", "266"),
+        ("der(azimuth)", "267"),
+        ("der(state.flapRate[8])", "308"),
+        ("flapping.lockNumber", "309"),
+    ] {
+        let found = description
+            .descendants()
+            .find(|n| n.has_tag_name("ScalarVariable") && n.attribute("name") == Some(name))
+            .unwrap();
+        assert_eq!(found.attribute("valueReference"), Some(reference), "{name}");
+    }
+}

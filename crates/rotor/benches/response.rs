@@ -11,7 +11,7 @@ use rotor::{
     Models, OperatingPoint, Rotor, Start, Workspace,
     air::Air,
     airfoil::Airfoil,
-    flapping::{Freedom, Hinge},
+    flapping::{BladeMass, Freedom, Hinge, Stops},
     geometry::{Elements, Geometry},
     inflow::Inflow,
 };
@@ -52,10 +52,11 @@ fn azimuth_step(criterion: &mut Criterion) {
     let rotor = rotor(Models {
         inflow: Inflow::PittPetersDynamic,
         hinge: Hinge {
+            mass: BladeMass::rod(0.05, 0.762),
             freedom: Some(Freedom {
-                inertia: 0.05,
                 pitch_flap: 0.0,
                 length: 0.762,
+                stops: Stops::default(),
             }),
             ..Hinge::default()
         },

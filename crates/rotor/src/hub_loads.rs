@@ -1,8 +1,8 @@
 //! Hub loads: force and moment on the hub, and quantities of the rotor as a whole.
 
 use super::{
-    evaluation::Evaluation, inflow::FlowState, loads::DiscLoads, operating_point::Drive,
-    scalar::Scalar, tip_path::TipPath,
+    disc::BladePosition, evaluation::Evaluation, inflow::FlowState, loads::DiscLoads,
+    operating_point::Drive, scalar::Scalar, tip_path::TipPath,
 };
 use core::f64::consts::PI;
 use nalgebra::Vector3;
@@ -44,12 +44,20 @@ impl<S: Scalar> HubLoads<S> {
             ..
         } = evaluation;
         let mut moment = loads.moment;
-        if let Some(freedom) = evaluation.freedom {
+        let hinge = &rotor.models().hinge;
+        let about = |position: &BladePosition<S>| {
+            Vector3::new(-position.azimuth.sin, position.azimuth.cos, S::zero())
+        };
+        if evaluation.freedom.is_some() {
             for (position, hinge_moment) in positions.iter().zip(loads.hinge_moments) {
                 let action = evaluation.action(hinge_moment);
-                let hinge = &rotor.models().hinge;
-                let up = freedom.hub_moment_excess(hinge, flow, position, &action);
-                moment += Vector3::new(-position.azimuth.sin, position.azimuth.cos, S::zero()) * up;
+                moment += about(position) * hinge.hub_moment_excess(flow, position, &action);
+            }
+        } else if !flow.is_hub_steady() {
+            // As many blades as the rotor has, at these positions or averaged over them.
+            let blades = f64::from(rotor.geometry().blades) / positions.len() as f64;
+            for position in positions.iter() {
+                moment += about(position) * (hinge.rigid_moment(flow, position) * blades);
             }
         }
         // A shaft that a torque drives transmits only this torque to the hub; the difference to the

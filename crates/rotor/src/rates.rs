@@ -31,12 +31,12 @@ pub(crate) fn of<S: Scalar>(evaluation: &Evaluation<S>, loads: &DiscLoads<S>) ->
         inflow: inflow.out_of_wind(&in_wind, axes),
         ..State::default()
     };
-    if let Some(freedom) = evaluation.freedom {
+    if evaluation.freedom.is_some() {
         let blades = rates.flaps.iter_mut().zip(positions.iter());
         for ((rate, position), moment) in blades.zip(loads.hinge_moments) {
             let action = evaluation.action(moment);
             rate.angle = position.flap.rate;
-            rate.rate = freedom.acceleration(&rotor.models().hinge, flow, position, &action);
+            rate.rate = rotor.models().hinge.acceleration(flow, position, &action);
         }
     }
     if let Drive::Torque { torque, inertia } = point.drive {
@@ -46,8 +46,9 @@ pub(crate) fn of<S: Scalar>(evaluation: &Evaluation<S>, loads: &DiscLoads<S>) ->
 }
 
 /// An estimate of the fastest rate of the states, 1/s: that of the inflow, of flapping (which the
-/// lift damps and, with delta3, stiffens), and of the rotor speed (which the loads damp).
-pub(crate) fn fastest(evaluation: &Evaluation) -> f64 {
+/// lift damps and, with delta3, stiffens), of stops that a blade may meet within a time, s, and of
+/// the rotor speed (which the loads damp).
+pub(crate) fn fastest(evaluation: &Evaluation, time: f64) -> f64 {
     let Evaluation {
         rotor, point, flow, ..
     } = evaluation;
@@ -66,7 +67,14 @@ pub(crate) fn fastest(evaluation: &Evaluation) -> f64 {
     );
     let speed = tip_speed + flow.edgewise + flow.climb.abs();
     let flapping = evaluation.freedom.map_or(0.0, |freedom| {
-        freedom.fastest_rate(&rotor.models().hinge, point, flow, chord, speed)
+        let hinge = &rotor.models().hinge;
+        let flaps = &evaluation.state.flaps[..rotor.flapping_blades()];
+        let free = freedom.fastest_rate(hinge, point, flow, chord, speed);
+        if freedom.may_meet_stop(flaps, time) {
+            free + hinge.stop_rate(flow.rotation)
+        } else {
+            free
+        }
     });
     let turning = match point.drive {
         Drive::Speed => 0.0,

@@ -45,7 +45,7 @@ impl Rotor {
     /// Number of equal steps, at least 1, into which `duration` s must be divided for a stable
     /// integration; not finite where the states' rates are not.
     pub fn stable_steps(&self, point: &OperatingPoint, state: &State, duration: f64) -> f64 {
-        let fastest = rates::fastest(&self.evaluate(point, state));
+        let fastest = rates::fastest(&self.evaluate(point, state), duration);
         libm::ceil((duration * fastest / MAX_PRODUCT).max(1.0))
     }
 }

@@ -63,6 +63,11 @@ impl<S: Scalar> DiscFlow<S> {
             .all(|x| x.is_negligible(0.0))
     }
 
+    /// Whether the hub neither rolls nor pitches.
+    pub fn is_hub_steady(&self) -> bool {
+        self.roll_rate.is_negligible(0.0) && self.pitch_rate.is_negligible(0.0)
+    }
+
     /// Angular velocity of the hub about a blade's e_r and e_t, rad/s.
     pub fn hub_rates(&self, azimuth: Azimuth<S>) -> (S, S) {
         let Azimuth { sin, cos } = azimuth;

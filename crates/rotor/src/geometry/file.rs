@@ -9,13 +9,15 @@
 //!     { r = 0.2, chord = 0.05, twist = 0.0 },
 //!     { r = 1.0, chord = 0.05, twist = -8.0, airfoil = "airfoils/naca0015.polar" },
 //! ]
+//! [flapping]
+//! inertia = 0.04                 # of one blade about its hinge, kg.m2; or lockNumber, see `inertia`
 //! ```
 //!
 //! `name` and `source` are free text. Only differences of `twist` between stations count: the
 //! collective is the pitch at the reference radius. Without `airfoil` a station has the rotor's
 //! standard airfoil.
 
-use super::{Geometry, GeometryError, Rotation, Station};
+use super::{BladeInertia, Geometry, GeometryError, Rotation, Station};
 use crate::text_file::{self, TextFile};
 use serde::Deserialize;
 use std::path::Path;
@@ -68,6 +70,7 @@ struct RotorFile {
     #[serde(default = "counter_clockwise")]
     rotation: FileRotation,
     station: Vec<FileStation>,
+    flapping: Option<FileFlapping>,
 }
 
 #[derive(Deserialize)]
@@ -75,6 +78,13 @@ struct RotorFile {
 enum FileRotation {
     CounterClockwise,
     Clockwise,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "camelCase")]
+struct FileFlapping {
+    inertia: Option<f64>,
+    lock_number: Option<f64>,
 }
 
 fn counter_clockwise() -> FileRotation {
@@ -128,6 +138,16 @@ fn parse(text: &str, file: &str) -> Result<Geometry, RotorFileError> {
         }
     })?;
 
+    let shape = |problem| RotorFileError::Shape {
+        file: file.to_owned(),
+        problem,
+    };
+    let inertia = rotor
+        .flapping
+        .map(blade_inertia)
+        .transpose()
+        .map_err(shape)?;
+
     let mut airfoils: Vec<String> = Vec::new();
     let mut stations = Vec::with_capacity(rotor.station.len());
     for station in rotor.station {
@@ -154,13 +174,30 @@ fn parse(text: &str, file: &str) -> Result<Geometry, RotorFileError> {
         tip_chord: 0.0,
         stations,
         airfoils,
+        inertia,
     };
-    geometry.check().map_err(|problem| RotorFileError::Shape {
-        file: file.to_owned(),
-        problem,
-    })?;
+    geometry.check().map_err(shape)?;
     geometry.tip_chord = largest_outer_chord(&geometry);
     Ok(geometry)
+}
+
+/// The inertia of the blades, from exactly one of the two numbers.
+fn blade_inertia(flapping: FileFlapping) -> Result<BladeInertia, GeometryError> {
+    let (name, value, inertia) = match (flapping.inertia, flapping.lock_number) {
+        (Some(moment), None) => ("inertia", moment, BladeInertia::Moment(moment)),
+        (None, Some(number)) => ("lockNumber", number, BladeInertia::LockNumber(number)),
+        (Some(_), Some(_)) | (None, None) => {
+            return Err(GeometryError(
+                "the table [flapping] needs either inertia (kg.m2) or lockNumber".into(),
+            ));
+        }
+    };
+    if !(value.is_finite() && value > 0.0) {
+        return Err(GeometryError(format!(
+            "flapping.{name} is {value}; it must be above 0"
+        )));
+    }
+    Ok(inertia)
 }
 
 /// Largest chord in the outer tenth of the radius: a rounded tip has a chord of 0 at its end.
@@ -191,6 +228,37 @@ station = [
         assert_eq!(geometry.airfoils, ["airfoils/circle.polar", ""]);
         assert!((geometry.stations[0].twist.to_degrees() - 4.0).abs() < 1e-12);
         assert_eq!(geometry.tip_chord, 0.1, "the rounded tip does not count");
+    }
+
+    #[test]
+    fn the_inertia_of_the_blades_is_read() {
+        let inertia = |flapping: &str| parse(&format!("{GOOD}{flapping}"), "good.toml");
+        for (flapping, expected) in [
+            ("", None),
+            ("[flapping]\ninertia = 2.5", Some(BladeInertia::Moment(2.5))),
+            (
+                "[flapping]\nlockNumber = 8",
+                Some(BladeInertia::LockNumber(8.0)),
+            ),
+        ] {
+            assert_eq!(inertia(flapping).unwrap().inertia, expected, "{flapping}");
+        }
+        for (flapping, part) in [
+            (
+                "[flapping]\ninertia = 2\nlockNumber = 8",
+                "needs either inertia",
+            ),
+            ("[flapping]", "needs either inertia"),
+            (
+                "[flapping]\ninertia = -1",
+                "flapping.inertia is -1; it must be above 0",
+            ),
+            ("[flapping]\nlockNumber = nan", "flapping.lockNumber is NaN"),
+            ("[flapping]\nmass = 2", "unknown field `mass`"),
+        ] {
+            let error = inertia(flapping).unwrap_err().to_string();
+            assert!(error.contains(part), "{error}");
+        }
     }
 
     #[test]

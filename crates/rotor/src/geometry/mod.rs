@@ -2,9 +2,11 @@
 
 mod elements;
 mod file;
+mod inertia;
 
 pub use elements::{Elements, Missed};
 pub use file::RotorFileError;
+pub use inertia::{BladeInertia, lock_number};
 
 use core::{f64::consts::PI, ops::RangeInclusive};
 use thiserror::Error;
@@ -67,6 +69,8 @@ pub struct Geometry {
     pub stations: Vec<Station>,
     /// Airfoil files of the sections; an empty name is the rotor's standard airfoil.
     pub airfoils: Vec<String>,
+    /// The inertia of the blades, if it is known.
+    pub inertia: Option<BladeInertia>,
 }
 
 /// What is wrong with a shape, and what would be right: a sentence.
@@ -105,6 +109,7 @@ impl Geometry {
             tip_chord: chord * taper_ratio,
             stations: vec![station(cutout, chord), station(1.0, chord * taper_ratio)],
             airfoils: vec![String::new()],
+            inertia: None,
         }
     }
 

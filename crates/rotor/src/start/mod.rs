@@ -1,5 +1,6 @@
 //! The states from which a rotor starts.
 
+mod balance;
 mod collocation;
 mod periodic;
 mod steady_inflow;
@@ -24,7 +25,8 @@ use unknowns::Unknowns;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Start {
     /// In a periodic state, in which each blade repeats the motion of the one before it, or, with
-    /// loads averaged over one revolution, in a steady state.
+    /// loads averaged over one revolution, in a steady state. Blades of a stopped rotor are in
+    /// balance where they are.
     Steady,
     /// Without induced velocity, the blades at the precone angle.
     Rest,
@@ -75,8 +77,13 @@ impl Rotor {
             return Ok(Started { state, is_found });
         }
         let Some(collocation) = Collocation::new(self, point) else {
-            return Ok(found(state)); // a stopped rotor has no motion that repeats itself
+            // A stopped rotor has no motion that repeats itself.
+            return Ok(found(balance::find(self, point, &state, workspace)?));
         };
+        let balanced = balance::without_air(self, point, &state);
+        if balance::is_on_stop(self, &balanced) {
+            state = balanced;
+        }
         let motion = collocation.find(point, &state);
         let guess = motion.unwrap_or(state);
         // Exactly periodic with the steps of the simulation, where that is not too much work.
@@ -88,6 +95,11 @@ impl Rotor {
             azimuth_step,
             workspace,
         );
+        let exact = if motion.is_none() && exact.is_none() {
+            periodic::turn(self, point, guess, azimuth_step, workspace)
+        } else {
+            exact
+        };
         let is_found = motion.is_some() || exact.is_some();
         let mut state = exact.unwrap_or(guess);
         state.speed = point.speed;
@@ -140,6 +152,9 @@ impl Rotor {
             add_changes(&mut state, &moves.ok_or(SolveError::NoSteadyState)?);
             return Ok(state);
         }
+        if is_individual && steps.is_none() {
+            state = balance::find(self, dual, &state, workspace)?;
+        }
         let unknowns = match steps {
             Some(_) => Unknowns::of_periodic_state(self, plain),
             None => Unknowns::of_inflow(self, 1.0),
@@ -154,7 +169,14 @@ impl Rotor {
                 None => Ok(unknowns.of(&steady_inflow::rates(self, dual, &state, workspace)?)),
             }
         })?;
-        let moves = unknowns.state(&moves.ok_or(SolveError::NoSteadyState)?);
+        let mut moves = unknowns.state(&moves.ok_or(SolveError::NoSteadyState)?);
+        if steps.is_none() {
+            // Those of the balance, or 0.
+            moves.flaps = state.flaps.map(|flap| Flap {
+                angle: flap.angle.eps,
+                rate: flap.rate.eps,
+            });
+        }
         add_changes(&mut state, &moves);
         Ok(state)
     }

@@ -24,6 +24,10 @@ const MAX_STEPS: f64 = 600.0;
 /// where it has found none. Successful searches take a third.
 const MAX_STEPS_IN_ALL: [f64; 2] = [6000.0, 1500.0];
 
+/// Maximum number of steps of a rotor that turns until its motion repeats itself. Flapping that air
+/// alone damps takes 3000.
+const MAX_STEPS_OF_TURNING: f64 = 6000.0;
+
 /// The periodic state, searched from `guess`, which `is_motion` of `collocation` or not; none if the search fails, or if a blade passage takes
 /// too many steps.
 pub(super) fn find(
@@ -63,6 +67,33 @@ pub(super) fn find(
         );
     }
     Some(unknowns.state(&found.ok()??))
+}
+
+/// The periodic state that the rotor reaches by turning from `guess`; none if it does not repeat
+/// itself in time, or if a blade passage takes too many steps.
+///
+/// Where blades meet stops, the slopes for Newton's method jump. The stops damp the motion so
+/// strongly that it soon repeats itself.
+pub(super) fn turn(
+    rotor: &Rotor,
+    point: &OperatingPoint,
+    guess: State,
+    azimuth_step: f64,
+    workspace: &mut Workspace,
+) -> Option<State> {
+    let steps = steps(rotor, point, &guess, azimuth_step)?;
+    let unknowns = Unknowns::of_periodic_state(rotor, point);
+    let mut x = unknowns.of(&guess);
+    for _ in 0..(MAX_STEPS_OF_TURNING / steps) as u32 {
+        let passed = after_passage(rotor, point, &unknowns.state(&x), steps, workspace).ok()?;
+        let next = unknowns.of(&passed);
+        let change = (&next - &x).norm();
+        x = next;
+        if change <= TOLERANCE {
+            return Some(unknowns.state(&x));
+        }
+    }
+    None
 }
 
 /// Number of steps in a blade passage, each at most `longest` (rad); none for a rotor that is

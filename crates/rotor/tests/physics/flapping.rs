@@ -7,10 +7,10 @@ use crate::support::{
 };
 use nalgebra::Vector3;
 use rotor::{
-    Models, OperatingPoint, Rotor, Start, Started, State, Workspace,
+    Blades, Models, OperatingPoint, Rotor, Start, Started, State, Workspace,
     air::STANDARD_GRAVITY,
     disc::Flap,
-    flapping::{Freedom, Hinge},
+    flapping::{BladeMass, Freedom, Hinge, Stops},
     geometry::{Geometry, Rotation},
     inflow::{ElementInflow, Inflow, Skew},
 };
@@ -29,6 +29,11 @@ struct Build {
     blades: u32,
     rotation: Rotation,
     elements: usize,
+    /// kg.m2.
+    inertia: f64,
+    flaps: bool,
+    blades_model: Blades,
+    stops: Stops,
 }
 
 impl Default for Build {
@@ -41,6 +46,10 @@ impl Default for Build {
             blades: BLADES,
             rotation: Rotation::CounterClockwise,
             elements: 100,
+            inertia: INERTIA,
+            flaps: true,
+            blades_model: Blades::Automatic,
+            stops: Stops::default(),
         }
     }
 }
@@ -49,17 +58,20 @@ impl Build {
     fn rotor(self) -> Rotor {
         let mut geometry = geometry(self.blades);
         geometry.rotation = self.rotation;
+        let length = 1.0 - self.offset;
         let freedom = Freedom {
-            inertia: INERTIA,
             pitch_flap: self.pitch_flap,
-            length: 1.0 - self.offset,
+            length,
+            stops: self.stops,
         };
         let models = Models {
             hinge: Hinge {
                 offset: self.offset,
                 precone: self.precone,
-                freedom: Some(freedom),
+                mass: BladeMass::rod(self.inertia, length),
+                freedom: self.flaps.then_some(freedom),
             },
+            blades: self.blades_model,
             ..ideal_models(self.inflow)
         };
         ideal_rotor(geometry, models, self.elements)
@@ -353,6 +365,154 @@ fn flat_blades_on_a_turning_hub_feel_the_gyroscopic_moment_twice_omega_q() {
     close(loads.moment.y, 0.0, 1e-9 * expected.abs(), "pitch");
 }
 
+/// Rigid blades in individual mode (`true`) or averaged.
+fn rigid(blades: u32, is_individual: bool, rotation: Rotation, inertia: f64) -> Build {
+    Build {
+        blades,
+        rotation,
+        inertia,
+        flaps: false,
+        blades_model: if is_individual {
+            Blades::Individual
+        } else {
+            Blades::Disc
+        },
+        elements: 10,
+        ..Build::default()
+    }
+}
+
+/// Euler's equations of a flat disc with the moment of inertia J = N I about the shaft and J/2
+/// across: the hub feels J (Omega + r/2) (-q, p), in the other direction of rotation with -Omega.
+/// It does no work on the turning hub. Averaged over one revolution so do one and two blades.
+#[test]
+fn rigid_blades_exert_the_gyroscopic_moment() {
+    let rates = Vector3::new(0.7, -0.4, 3.0);
+    for (rotation, sense) in [
+        (Rotation::CounterClockwise, 1.0),
+        (Rotation::Clockwise, -1.0),
+    ] {
+        for (blades, is_individual) in [
+            (3, true),
+            (4, true),
+            (7, true),
+            (1, false),
+            (2, false),
+            (4, false),
+        ] {
+            let what = format!("{blades} blades, individual {is_individual}, {rotation:?}");
+            let point = OperatingPoint {
+                angular_velocity: rates,
+                ..airless(1e-12)
+            };
+            let state = State {
+                azimuth: 0.6,
+                ..State::default()
+            };
+            let rotor = rigid(blades, is_individual, rotation, INERTIA).rotor();
+            let moment = hub_loads(&rotor, &point, &state).moment;
+            let momentum = f64::from(blades) * INERTIA * (sense * SPEED + rates.z / 2.0);
+            let scale = momentum.abs();
+            close(moment.x, -momentum * rates.y, 1e-9 * scale, &what);
+            close(moment.y, momentum * rates.x, 1e-9 * scale, &what);
+            let work = moment.x * rates.x + moment.y * rates.y;
+            close(work, 0.0, 1e-9 * scale, &what);
+        }
+    }
+}
+
+/// One and two blades: -2 I Omega w_r of each blade, with w_r = -p cos(psi) along it for a roll
+/// rate p, varies twice per revolution.
+#[test]
+fn the_gyroscopic_moment_of_few_rigid_blades_varies_twice_per_revolution() {
+    let rate = 0.5;
+    let point = OperatingPoint {
+        angular_velocity: Vector3::new(rate, 0.0, 0.0),
+        ..airless(1e-12)
+    };
+    for blades in [1, 2] {
+        let rotor = rigid(blades, true, Rotation::CounterClockwise, INERTIA).rotor();
+        let peak = f64::from(blades) * 2.0 * INERTIA * SPEED * rate;
+        for psi in [0.0, 0.4, 1.3, 2.9_f64] {
+            let state = State {
+                azimuth: psi,
+                ..State::default()
+            };
+            let moment = hub_loads(&rotor, &point, &state).moment;
+            let (sin, cos) = psi.sin_cos();
+            close(moment.y, peak * cos * cos, 1e-9 * peak, "pitch");
+            close(moment.x, -peak * cos * sin, 1e-9 * peak, "roll");
+        }
+    }
+}
+
+/// The stiffer the springs, the closer the hub moment comes to that of rigid blades.
+#[test]
+fn stiff_springs_tend_to_the_rigid_rotor() {
+    for (blades, precone, rotation) in [
+        (1, 0.0, Rotation::CounterClockwise),
+        (2, 0.03, Rotation::Clockwise),
+        (3, 0.03, Rotation::CounterClockwise),
+        (4, 0.03, Rotation::Clockwise),
+    ] {
+        let build = |flaps| Build {
+            precone,
+            flaps,
+            offset: 0.06,
+            ..rigid(blades, true, rotation, INERTIA)
+        };
+        let stiff = Build {
+            blades_model: Blades::Automatic,
+            ..build(true)
+        };
+        let (stiff, rigid) = (stiff.rotor(), build(false).rotor());
+        let point = OperatingPoint {
+            gravity: Vector3::zeros(),
+            ..unsymmetrical()
+        };
+        let limit = hub_loads(&rigid, &point, &State::default()).moment;
+        let without = OperatingPoint {
+            angular_velocity: Vector3::zeros(),
+            ..point
+        };
+        let change = (limit - hub_loads(&rigid, &without, &State::default()).moment).norm();
+        let errors = [1e4, 4e4].map(|hinge_spring| {
+            let point = OperatingPoint {
+                hinge_spring,
+                ..point
+            };
+            (steady(&stiff, &point).1.moment - limit).norm()
+        });
+        println!("{blades} blades: {limit:?}, {errors:?}, gyroscopic {change}");
+        assert!(errors[1] < 0.35 * errors[0], "{blades} blades: {errors:?}");
+        assert!(
+            errors[1] < 0.1 * change,
+            "{blades} blades: {errors:?}, {change}"
+        );
+    }
+}
+
+/// While the hub neither rolls nor pitches, the inertia of rigid blades changes no bit.
+#[test]
+fn the_inertia_of_rigid_blades_has_no_effect_on_a_steady_hub() {
+    for (blades, is_individual) in [(1, true), (2, true), (4, true), (4, false)] {
+        let at = |inertia: f64| {
+            let build = Build {
+                precone: 0.05,
+                ..rigid(blades, is_individual, Rotation::Clockwise, inertia)
+            };
+            let point = OperatingPoint {
+                angular_velocity: Vector3::new(0.0, 0.0, 0.4),
+                ..unsymmetrical()
+            };
+            hub_loads(&build.rotor(), &point, &State::default())
+        };
+        let moment = at(0.0).moment;
+        assert_eq!(moment.map(f64::to_bits), at(0.3).moment.map(f64::to_bits));
+        assert_eq!(at(0.0), at(0.3));
+    }
+}
+
 #[test]
 fn a_steady_start_in_forward_flight_repeats_itself() {
     for inflow in [
@@ -606,4 +766,138 @@ fn blades_of_a_stopped_rotor_fall_and_swing() {
         lowest > -PI - 1e-3,
         "and no higher than where it began: {lowest}"
     );
+}
+
+const STOPS: Stops = Stops {
+    lowest: -0.1,
+    highest: 0.2,
+};
+
+fn stopped(gravity: f64) -> OperatingPoint {
+    OperatingPoint {
+        speed: 0.0,
+        gravity: Vector3::new(0.0, 0.0, gravity),
+        ..hover(0.0)
+    }
+}
+
+/// The weight S g cos(beta) of a blade presses it 0.01 rad cos(beta) into the stop. The stop carries
+/// its moment to the hub.
+#[test]
+fn a_blade_rests_on_its_stop_under_its_weight() {
+    for (gravity, stop) in [(-STANDARD_GRAVITY, -0.1), (STANDARD_GRAVITY, 0.2)] {
+        let rotor = Build {
+            blades: 1,
+            stops: STOPS,
+            elements: 10,
+            ..Build::default()
+        }
+        .rotor();
+        let (state, loads) = steady(&rotor, &stopped(gravity));
+        let angle = state.flaps[0].angle;
+        let depth = 0.01 * angle.cos() * f64::signum(stop);
+        close(angle, stop + depth, 1e-12, "angle");
+        let weight = 1.5 * INERTIA * gravity * angle.cos();
+        close(loads.moment.y, weight, 1e-9, "moment on the hub");
+    }
+}
+
+/// beta'' of blade 1 at a flap angle and rate.
+fn acceleration(rotor: &Rotor, point: &OperatingPoint, angle: f64, rate: f64) -> f64 {
+    let mut state = State::default();
+    state.flaps[0] = Flap { angle, rate };
+    let mut workspace = Workspace::new(rotor);
+    rotor.rates(point, &state, &mut workspace).unwrap().flaps[0].rate
+}
+
+/// In next to no air: the moment begins at 0, whatever the speed of the impact, and the stop never
+/// pulls.
+#[test]
+fn a_stop_pushes_only_and_without_a_jump() {
+    let rotor = Build {
+        blades: 1,
+        stops: STOPS,
+        elements: 10,
+        ..Build::default()
+    }
+    .rotor();
+    let point = OperatingPoint {
+        air: air(1e-9),
+        ..stopped(0.0)
+    };
+    for (stop, out) in [(-0.1, -1.0), (0.2, 1.0)] {
+        for rate in [-5.0, 0.0, 5.0] {
+            let push = |depth: f64| {
+                let found = acceleration(&rotor, &point, stop + out * depth, out * rate);
+                assert!(found * out < 1e-9, "it pulls: {found}");
+                found.abs()
+            };
+            assert!(push(-1e-6) < 1e-9, "between the stops");
+            assert!(push(1e-9) < 1e-4, "a jump at {rate} rad/s");
+            if rate > 0.0 {
+                // K/I = 1.5 g/l/0.01 rad and C = 2 sqrt(K I).
+                let stiffness = 150.0 * STANDARD_GRAVITY;
+                let expected = stiffness * 0.02 + 2.0 * stiffness.sqrt() * rate;
+                close(push(0.02), expected, 1e-6 * expected, "spring and damper");
+            }
+        }
+    }
+}
+
+/// A blade that falls onto its droop stop comes to rest there, without jumping back to where it was.
+#[test]
+fn a_falling_blade_comes_to_rest_on_its_stop() {
+    let rotor = Build {
+        stops: STOPS,
+        elements: 10,
+        ..Build::default()
+    }
+    .rotor();
+    let point = stopped(-STANDARD_GRAVITY);
+    let mut workspace = Workspace::new(&rotor);
+    let mut state = State::default();
+    let (mut lowest, mut rebound, mut most) = (0.0_f64, -0.1_f64, 0.0_f64);
+    for _ in 0..400 {
+        let steps = rotor.stable_steps(&point, &state, 0.005);
+        most = most.max(steps);
+        for _ in 0..steps as u32 {
+            let next = rotor.step(|_| point, &state, 0.005 / steps, &mut workspace);
+            state = next.unwrap();
+        }
+        let angle = state.flaps[0].angle;
+        lowest = lowest.min(angle);
+        if lowest < -0.1 {
+            rebound = rebound.max(angle);
+        }
+    }
+    close(
+        state.flaps[0].angle,
+        -0.1 - 0.01 * 0.1_f64.cos(),
+        1e-4,
+        "rest",
+    );
+    assert!(lowest > -0.16 && rebound < -0.05, "{lowest} {rebound}");
+    assert!(most <= 2.0, "{most} steps");
+}
+
+/// Flapping between the stops has the bits of flapping without stops.
+#[test]
+fn stops_that_are_not_met_change_no_bit() {
+    let at = |stops: Stops| {
+        let rotor = Build {
+            stops,
+            elements: 10,
+            offset: 0.05,
+            ..Build::default()
+        }
+        .rotor();
+        steady(&rotor, &unsymmetrical())
+    };
+    let wide = Stops {
+        lowest: -0.4,
+        highest: 0.6,
+    };
+    let (with, without) = (at(wide), at(Stops::default()));
+    assert!(without.0.flaps[0].angle.abs() > 0.01);
+    assert_eq!(with, without);
 }

@@ -1,0 +1,117 @@
+//! The flap angles at which blades that do not move against the hub are in balance: under the air,
+//! their weight, springs, stops and the inertia forces of the turning rotor.
+
+use crate::{
+    disc::{AZIMUTHS, BladePosition, Flap},
+    error::SolveError,
+    evaluation::Evaluation,
+    flapping::Freedom,
+    lift_end::disc_loads,
+    operating_point::OperatingPoint,
+    root::{self, End},
+    rotor::Rotor,
+    scalar::Scalar,
+    state::State,
+    workspace::Workspace,
+};
+use core::f64::consts::FRAC_PI_2;
+
+/// Tolerance of the angles, rad.
+const TOLERANCE: f64 = 1e-13;
+
+/// How far beyond the stops an angle is searched, rad.
+const BEYOND_STOPS: f64 = 1.0;
+
+/// Maximum number of computations of the moments of the air.
+const MAX_COMPUTATIONS: usize = 20;
+
+/// The state with each blade in balance at its azimuth.
+///
+/// The moment of the air is computed again at the angles that balance the last one, until they stay.
+/// They always do on a stop, which is far stiffer than the air; where they do not, the last angles
+/// are the result. Fails if the loads cannot be computed.
+pub(super) fn find<S: Scalar>(
+    rotor: &Rotor,
+    point: &OperatingPoint<S>,
+    state: &State<S>,
+    workspace: &mut Workspace<S>,
+) -> Result<State<S>, SolveError> {
+    let mut balanced = without_air(rotor, point, state);
+    for _ in 0..MAX_COMPUTATIONS {
+        let evaluation = rotor.evaluate(point, &balanced);
+        let moments = disc_loads(&evaluation, workspace)?.hinge_moments;
+        let next = under(&evaluation, &moments);
+        let flaps = next.flaps.iter().zip(&balanced.flaps);
+        let change = flaps.map(|(a, b)| (a.angle - b.angle).value().abs());
+        let change = change.fold(0.0, f64::max);
+        balanced = next;
+        if change <= 10.0 * TOLERANCE {
+            break;
+        }
+    }
+    Ok(balanced)
+}
+
+/// The same without the moments of the air.
+pub(super) fn without_air<S: Scalar>(
+    rotor: &Rotor,
+    point: &OperatingPoint<S>,
+    state: &State<S>,
+) -> State<S> {
+    under(&rotor.evaluate(point, state), &[S::zero(); AZIMUTHS])
+}
+
+/// Whether a blade lies beyond one of its stops.
+pub(super) fn is_on_stop(rotor: &Rotor, state: &State) -> bool {
+    let freedom = rotor.models().hinge.freedom;
+    let flaps = &state.flaps[..rotor.flapping_blades()];
+    freedom.is_some_and(|freedom| flaps.iter().any(|f| freedom.stops.excess(f.angle) > 0.0))
+}
+
+/// The state of an evaluation with the angles that balance these moments of the air, N.m.
+fn under<S: Scalar>(evaluation: &Evaluation<S>, moments: &[S]) -> State<S> {
+    let mut balanced = *evaluation.state;
+    let Some(freedom) = evaluation.freedom else {
+        return balanced;
+    };
+    let blades = evaluation.positions.iter().zip(moments);
+    for (flap, (position, moment)) in balanced.flaps.iter_mut().zip(blades) {
+        if let Some(angle) = angle(evaluation, freedom, position, *moment) {
+            *flap = Flap {
+                angle,
+                rate: S::zero(),
+            };
+        }
+    }
+    balanced
+}
+
+/// The angle that balances the moment of the air on a blade at a position; none if no angle between
+/// straight down and straight up does. Where weight acts along the blade, there may be several, of
+/// which this is one.
+fn angle<S: Scalar>(
+    evaluation: &Evaluation<S>,
+    freedom: &Freedom,
+    position: &BladePosition<S>,
+    moment: S,
+) -> Option<S> {
+    let hinge = &evaluation.rotor.models().hinge;
+    let action = evaluation.action(moment);
+    let acceleration = |angle: S| {
+        let still = Flap {
+            angle,
+            rate: S::zero(),
+        };
+        let position = BladePosition::new(position.azimuth, still, S::zero());
+        hinge.acceleration(&evaluation.flow, &position, &action)
+    };
+    let value = |angle: f64| acceleration(S::constant(angle)).value();
+    let end = |at: f64| End {
+        at,
+        residual: value(at),
+    };
+    let low = end(freedom.stops.lowest.max(-FRAC_PI_2) - BEYOND_STOPS);
+    let high = end(freedom.stops.highest.min(FRAC_PI_2) + BEYOND_STOPS);
+    let angle = root::bracketed(value, low, high, TOLERANCE).ok()?;
+    Some(S::at_root(angle, acceleration))
+}
