@@ -18,6 +18,13 @@ CHOSEN = [
     (HOVER_2, "CQ rise", "both speeds", "defaults", "Castles & Gray, hover: CQ rise"),
     (HOVER_3, "CT", "prandtlGlauert", "defaults", "Caradonna & Tung, hover: CT"),
     (
+        HOVER_3,
+        "CT",
+        "prandtlGlauert with gessowMyers",
+        "tip loss `gessowMyers`",
+        "the same, gessowMyers",
+    ),
+    (
         DESCENT,
         "collective",
         "measured (fitted), annulus",

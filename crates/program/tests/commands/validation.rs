@@ -101,6 +101,26 @@ fn thrust_of_castles_and_grays_rotor_in_hover() {
     assert!(thrust.mean_absolute <= 8.0, "{thrust:?}");
 }
 
+/// On short blades the tip loss that takes away all lift at the tip gives the better thrust, but not
+/// the better loads along the blade.
+#[test]
+fn thrust_of_caradonna_and_tungs_short_blades() {
+    let case = "Caradonna & Tung";
+    let own = error_of(case, "CT", "prandtlGlauert with gessowMyers");
+    let prandtl = error_of(case, "CT", "prandtlGlauert");
+    assert!(own.mean_absolute <= 15.0, "{own:?}");
+    assert!(
+        prandtl.mean_absolute > 2.0 * own.mean_absolute,
+        "{own:?} {prandtl:?}"
+    );
+    let [own, prandtl] = ["prandtlGlauert with gessowMyers", "prandtlGlauert"]
+        .map(|model| error_of(case, "section lift", model));
+    assert!(
+        own.mean_absolute > prandtl.mean_absolute,
+        "{own:?} {prandtl:?}"
+    );
+}
+
 /// With the measured law of descent, for every inflow model and both rotors, and with the law fitted
 /// to other runs.
 #[test]
