@@ -9,7 +9,7 @@ import numpy as np
 class Errors:
     """Errors of one quantity with one model over the points of a case.
 
-    `unit` is "%" (of each measured value), "% of ..." or "deg". `scatter` is that of the
+    `unit` is "%" (of each measured value), "% of ...", "deg", or "1" for ratios. `scatter` is that of the
     measurement in the same unit, None where it is not known.
     """
 
@@ -40,6 +40,11 @@ def percent_of(reference, case, quantity, model, computed, measured, of, scatter
 def degrees(case, quantity, model, computed, measured, scatter=None):
     """Errors of angles in deg."""
     return _of(case, quantity, model, "deg", np.asarray(computed) - np.asarray(measured), scatter)
+
+
+def ratio(case, quantity, model, computed, measured, scatter=None):
+    """Errors of ratios without a unit, not in per cent."""
+    return _of(case, quantity, model, "1", np.asarray(computed) - np.asarray(measured), scatter)
 
 
 def _of(case, quantity, model, unit, differences, scatter):

@@ -36,8 +36,8 @@ def table(header, rows, left=1):
 
 
 def number(value, unit, signed=False):
-    """Degrees with two decimals, per cent with one."""
-    digits = 2 if unit == "deg" else 1
+    """Ratios with four decimals, degrees with two, per cent with one."""
+    digits = {"1": 4, "deg": 2}.get(unit, 1)
     # Adding 0 turns "-0.0" into "0.0".
     value = round(value, digits) + 0.0
     return f"{value:+.{digits}f}" if signed else f"{value:.{digits}f}"
@@ -51,7 +51,7 @@ def statistics(errors, with_unit=False):
 
     def said(value, signed=False):
         text = number(value, errors.unit, signed)
-        return f"{text} {errors.unit}" if with_unit else text
+        return f"{text} {errors.unit}" if with_unit and errors.unit != "1" else text
 
     return [
         errors.points,

@@ -8,6 +8,7 @@ HOVER_3 = "Caradonna & Tung 1981, hover"
 DESCENT = "Castles & Gray 1951, descent"
 TWISTED = "Castles & Gray 1951, descent, twisted"
 FORWARD = "PCA-2 autogiro 1934, forward flight"
+INFLOW = "Elliott & Althoff 1988, forward flight"
 MEASURED = "the law of descent is fitted to these runs"
 # Case, quantity and model as in the errors, the models in the table, the label in the figure.
 CHOSEN = [
@@ -17,6 +18,13 @@ CHOSEN = [
     (HOVER_2, "CT", "both speeds", "defaults", "Castles & Gray, hover: CT"),
     (HOVER_2, "CQ rise", "both speeds", "defaults", "Castles & Gray, hover: CQ rise"),
     (HOVER_3, "CT", "prandtlGlauert", "defaults", "Caradonna & Tung, hover: CT"),
+    (
+        HOVER_3,
+        "CT",
+        "prandtlGlauert with gessowMyers",
+        "tip loss `gessowMyers`",
+        "the same, gessowMyers",
+    ),
     (
         DESCENT,
         "collective",
@@ -80,6 +88,14 @@ CHOSEN = [
     (FORWARD, "shaft angle", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: shaft angle"),
     (FORWARD, "CT", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: CT"),
     (FORWARD, "rotor speed", "pittPetersDynamic", "`pittPetersDynamic`", "autogiro: rotor speed"),
+    *(
+        (INFLOW, f"inflow ratio less its mean, mu {mu}", model, name, short)
+        for mu in (0.15, 0.35)
+        for model, name, short in [
+            ("annulus", "defaults", f"Elliott & Althoff, mu {mu}: inflow"),
+            ("uniform", "`uniform`", "the same, uniform"),
+        ]
+    ),
 ]
 
 
@@ -100,9 +116,9 @@ def table(rows):
 
 def draw(rows, file):
     """RMS errors as bars; the mean error and the scatter of the measurement are marked on them."""
-    units = {"%": "% of the measured value", "deg": "deg"}
+    units = {"%": "% of the measured value", "deg": "deg", "1": "inflow ratio less its mean"}
     heights = [sum(e.unit == unit for e, _, _ in chosen(rows)) for unit in units]
-    figure, panels = drawing.figure(2, 1, height=5.6, height_ratios=heights)
+    figure, panels = drawing.figure(len(units), 1, height=6.8, height_ratios=heights)
     for axis, (unit, label) in zip(panels, units.items()):
         own = [(e, short) for e, _, short in chosen(rows) if e.unit == unit]
         for i, (e, _) in enumerate(own):
@@ -115,13 +131,14 @@ def draw(rows, file):
                 linewidth=0.6,
                 label="RMS error" if once else None,
             )
-            axis.plot(
-                [abs(e.mean)],
-                [i],
-                "kD",
-                markersize=4,
-                label="mean error, magnitude" if once else None,
-            )
+            if unit != "1":  # The mean of the inflow is not compared.
+                axis.plot(
+                    [abs(e.mean)],
+                    [i],
+                    "kD",
+                    markersize=4,
+                    label="mean error, magnitude" if once else None,
+                )
             if e.scatter is not None:
                 style = {"color": "#b03a2e", "linewidth": 2.0}
                 axis.plot(

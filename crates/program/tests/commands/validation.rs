@@ -22,7 +22,8 @@ fn run() -> &'static (Output, PathBuf) {
     })
 }
 
-/// Errors of a quantity with a model in a case, deg for angles and % for others.
+/// Errors of a quantity with a model in a case: deg for angles, no unit for inflow ratios, % for
+/// others.
 #[derive(Debug, Deserialize)]
 struct Errors {
     case: String,
@@ -101,6 +102,62 @@ fn thrust_of_castles_and_grays_rotor_in_hover() {
     assert!(thrust.mean_absolute <= 8.0, "{thrust:?}");
 }
 
+/// On short blades the tip loss that takes away all lift at the tip gives the better thrust, but not
+/// the better loads along the blade.
+#[test]
+fn thrust_of_caradonna_and_tungs_short_blades() {
+    let case = "Caradonna & Tung";
+    let own = error_of(case, "CT", "prandtlGlauert with gessowMyers");
+    let prandtl = error_of(case, "CT", "prandtlGlauert");
+    assert!(own.mean_absolute <= 15.0, "{own:?}");
+    assert!(
+        prandtl.mean_absolute > 2.0 * own.mean_absolute,
+        "{own:?} {prandtl:?}"
+    );
+    let [own, prandtl] = ["prandtlGlauert with gessowMyers", "prandtlGlauert"]
+        .map(|model| error_of(case, "section lift", model));
+    assert!(
+        own.mean_absolute > prandtl.mean_absolute,
+        "{own:?} {prandtl:?}"
+    );
+}
+
+/// The default inflow varies over the disc as measured, nearly as well as the best linear model and
+/// much better than uniform inflow.
+#[test]
+fn inflow_over_the_disc_in_forward_flight() {
+    for mu in ["0.15", "0.35"] {
+        let quantity = format!("inflow ratio less its mean, mu {mu}");
+        let rms = |model: &str| error_of("Elliott & Althoff", &quantity, model).rms;
+        let linear = [
+            "coleman",
+            "drees",
+            "payne",
+            "whiteBlake",
+            "pittPeters",
+            "howlett",
+            "glauertHighSpeed",
+        ];
+        let best = linear.map(rms).into_iter().fold(f64::INFINITY, f64::min);
+        let annulus = rms("annulus");
+        assert!(annulus <= 1.15 * best, "mu {mu}: {annulus} {best}");
+        let uniform = rms("uniform");
+        assert!(uniform > 1.4 * annulus, "mu {mu}: {annulus} {uniform}");
+        // The assumed shaft angle, trim and thrust do not decide.
+        for assumed in [
+            "with the shaft upright",
+            "without cyclic pitch",
+            "with 10 % more thrust",
+        ] {
+            let other = rms(&format!("annulus {assumed}"));
+            assert!(
+                (other / annulus - 1.0).abs() < 0.1,
+                "mu {mu}: {annulus}, {assumed} {other}"
+            );
+        }
+    }
+}
+
 /// With the measured law of descent, for every inflow model and both rotors, and with the law fitted
 /// to other runs.
 #[test]
@@ -131,7 +188,8 @@ fn collective_for_a_thrust_in_descent() {
 const SENSITIVITIES: usize = 3;
 
 /// Coning and longitudinal flapping agree with every inflow model. Lateral flapping needs inflow
-/// that increases towards the rear, which uniform inflow, annuli and finite blades do not have.
+/// that increases towards the rear, which uniform inflow and finite blades do not have, and annuli
+/// have too much of at low advance ratios.
 #[test]
 fn the_autogiro_flaps_as_measured_in_flight() {
     for quantity in ["coning", "longitudinal flapping", "lateral flapping"] {
@@ -145,8 +203,8 @@ fn the_autogiro_flaps_as_measured_in_flight() {
                 assert!(errors.rms <= 1.0, "{errors:?}");
                 continue;
             }
-            let skewed = !["uniform", "annulus", "finiteBlades"].contains(&errors.model.as_str());
-            assert_eq!(errors.rms < 0.6, skewed, "{errors:?}");
+            let agrees = !["uniform", "annulus", "finiteBlades"].contains(&errors.model.as_str());
+            assert_eq!(errors.rms < 0.6, agrees, "{errors:?}");
         }
     }
 }
