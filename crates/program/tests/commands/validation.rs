@@ -203,8 +203,12 @@ fn the_autogiro_flaps_as_measured_in_flight() {
                 assert!(errors.rms <= 1.0, "{errors:?}");
                 continue;
             }
-            let agrees = !["uniform", "annulus", "finiteBlades"].contains(&errors.model.as_str());
+            let agrees = !["uniform", "finiteBlades"].contains(&errors.model.as_str());
             assert_eq!(errors.rms < 0.6, agrees, "{errors:?}");
+            assert!(
+                errors.model != "annulus" || errors.rms <= 0.45,
+                "{errors:?}"
+            );
         }
     }
 }

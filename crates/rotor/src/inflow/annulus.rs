@@ -55,21 +55,24 @@
 //!          - s mean((W_psi/U)^2 cl_psi cos(phi_psi - phi)),
 //! ```
 //!
-//! with W_psi the flow at each blade position, which is the equation above times cos(phi - phi0) where all azimuths are alike. The lift is
-//! projected on the direction of the induced velocity, and so is the momentum. Where blades are
-//! computed one by one they take the place of the azimuths, and the balance holds at each instant.
+//! with W_psi the flow at each blade position. Where all azimuths are alike it is the equation above
+//! times cos(phi - phi0). The lift is projected on the direction of the induced velocity, and so is
+//! the momentum. Where blades are computed one by one they take the place of the azimuths, and the
+//! balance holds at each instant.
 //!
 //! The wake of a disc in edgewise flow is skewed, and induces more at the rear than at the front:
-//! the induced velocity varies around the annulus like Pitt & Peters' (1981, Vertica 5, p. 21),
+//! the induced velocity varies around the annulus like Howlett's (1981, NASA CR-166309),
 //!
 //! ```text
-//! v_psi = v (1 + 15 pi/32 tan(chi/2) (r/R) cos psi),   chi = atan(V_x/|V + v|).
+//! v_psi = v (1 + sin^2 chi (r/R) cos psi),   chi = atan(V_x/|V + v|).
 //! ```
 //!
-//! In descent the law's V' takes the place of |V + v|, which passes through 0.
-//! It is part of the lift in R, so that the annulus' mean and its momentum keep their balance. As in
+//! In descent the law's V' takes the place of |V + v|, which passes through 0. The variation is part
+//! of the lift in R, so that the annulus' mean and its momentum keep their balance. As in
 //! AeroDyn (Moriarty & Hansen 2005, NREL/TP-500-36881, ch. 2.4) each annulus has its own chi; in
-//! axial flow nothing changes.
+//! axial flow nothing changes. Of the linear distributions, Howlett's was chosen after a comparison
+//! with measured inflow and lateral flapping; Pitt & Peters' has less error in the inflow and twice
+//! as much in the flapping.
 //!
 //! At the far end of the bracket the mean flow W vanishes. If strong edgewise flow along a slow
 //! disc leaves the sign of R unchanged even there, that end is taken: the rotor brings its own air
@@ -196,7 +199,7 @@ fn skew<S: Scalar>(
     axial: S,
 ) -> Coefficients<S> {
     let tip_speed = flow.rotation.abs() * element.tip_radius;
-    Skew::PittPeters
+    Skew::Howlett
         .coefficients(
             flow.edgewise,
             momentum.wake_speed(flow.climb, axial),
