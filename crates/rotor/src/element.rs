@@ -85,6 +85,11 @@ impl<S: Scalar> SectionLoad<S> {
     }
 }
 
+/// sqrt(a^2 + b^2) of ordinary numbers, faster than `hypot`.
+fn length<S: Scalar>(a: S, b: S) -> S {
+    (a * a + b * b).sqrt()
+}
+
 impl<S: Scalar> Element<'_, S> {
     /// Local solidity N c/(2 pi r).
     pub fn solidity(&self) -> f64 {
@@ -153,19 +158,19 @@ impl<S: Scalar> Element<'_, S> {
             return mean;
         }
         // Lift acts up in forward and down in reversed flow; along the shaft it does neither.
-        let forward = section.in_plane / section.in_plane.hypot(C(ROUNDING) * through);
+        let forward = section.in_plane / length(section.in_plane, C(ROUNDING) * through);
         let alpha = self.pitch + section.pitch - through.atan2(section.in_plane);
         let lift = forward * self.lift_coefficient(alpha, speed) * speed / (2.0 * PI);
         if lift.value() == 0.0 && mean.value() == 0.0 {
             return mean;
         }
-        let limit = lift.hypot(C(ROUNDING) * mean);
+        let limit = length(lift, C(ROUNDING) * mean);
         let added = mean / factor - mean;
         // 1 where lift and mean have the same direction, 0 where they have not.
         let product = mean * lift;
         let sum = C(SHARPNESS) * (mean * mean + lift * lift);
-        let share = C(0.5) * (C(1.0) + product / product.hypot(sum));
-        mean + share * added * (limit / added.hypot(limit))
+        let share = C(0.5) * (C(1.0) + product / length(product, sum));
+        mean + share * added * (limit / length(added, limit))
     }
 
     /// Loads of the section at a pitch (rad) in a flow with the components `in_plane` against the

@@ -20,9 +20,12 @@ const MIN_AZIMUTHS: usize = 24;
 /// Minimum number of azimuths in a blade passage.
 const MIN_IN_PASSAGE: usize = 5;
 /// Maximum number of Newton steps.
-const MAX_STEPS: usize = 25;
+const MAX_STEPS: usize = 15;
+/// Maximum number of steps that leave more than half of the residual. Where corners, as of stops,
+/// keep it from falling, more steps are of no use.
+const MAX_SLOW_STEPS: usize = 4;
 /// Maximum number of halvings of a step that does not come closer.
-const MAX_HALVINGS: usize = 6;
+const MAX_HALVINGS: usize = 4;
 /// Length of a step, in unknowns of order 1, at which the search ends. The motion itself is not
 /// more exact than the polynomials.
 const TOLERANCE: f64 = 1e-9;
@@ -39,10 +42,10 @@ pub(super) struct Collocation<'a> {
     /// Azimuths in a blade passage.
     nodes: usize,
     blades: usize,
-    /// First and second derivative by azimuth over the azimuths of a revolution.
-    turn: [DMatrix<f64>; 2],
-    /// First derivative by azimuth over those of a passage.
-    passage: DMatrix<f64>,
+    /// First derivative by azimuth over the azimuths of a revolution.
+    turn: DMatrix<f64>,
+    /// The second derivative of the flap angles and the first of the inflow states.
+    derivatives: DMatrix<f64>,
 }
 
 impl<'a> Collocation<'a> {
@@ -54,14 +57,34 @@ impl<'a> Collocation<'a> {
         let blades = rotor.geometry().blades as usize;
         let nodes = MIN_AZIMUTHS.div_ceil(blades).max(MIN_IN_PASSAGE);
         let azimuths = nodes * blades;
+        let flapping = if rotor.flapping_blades() > 0 {
+            azimuths
+        } else {
+            0
+        };
+        let states = rotor.models().inflow.state_count();
+        let size = flapping + states * nodes;
+        let mut derivatives = DMatrix::zeros(size, size);
+        if flapping > 0 {
+            let second = second_derivative(azimuths);
+            derivatives
+                .view_mut((0, 0), (azimuths, azimuths))
+                .copy_from(&second);
+        }
+        let passage = first_derivative(nodes) * blades as f64;
+        for from in (0..states).map(|s| flapping + s * nodes) {
+            derivatives
+                .view_mut((from, from), (nodes, nodes))
+                .copy_from(&passage);
+        }
         Some(Self {
             rotor,
             unknowns: Unknowns::of_periodic_state(rotor, point),
             speed: point.speed,
             nodes,
             blades,
-            turn: [first_derivative(azimuths), second_derivative(azimuths)],
-            passage: first_derivative(nodes) * blades as f64,
+            turn: first_derivative(azimuths),
+            derivatives,
         })
     }
 
@@ -119,7 +142,7 @@ impl<'a> Collocation<'a> {
         for k in 0..blades {
             let l = k * self.nodes + node;
             there[states + 2 * k] = angles[l];
-            there[states + 2 * k + 1] = (self.turn[0].row(l) * angles)[0];
+            there[states + 2 * k + 1] = (self.turn.row(l) * angles)[0];
         }
         there
     }
@@ -160,7 +183,7 @@ impl<'a> Collocation<'a> {
         values: &DVector<f64>,
         workspace: &mut Workspace,
     ) -> Result<DVector<f64>, SolveError> {
-        let mut residual = self.derivatives() * values;
+        let mut residual = &self.derivatives * values;
         for node in 0..self.nodes {
             let rates = self.rates(point, &self.at(values, node), node, workspace)?;
             for (row, rate) in self.rows(node).into_iter().zip(rates.iter()) {
@@ -177,25 +200,6 @@ impl<'a> Collocation<'a> {
         inflow.chain(blades).collect()
     }
 
-    /// The second derivative of the flap angles and the first of the inflow states.
-    fn derivatives(&self) -> DMatrix<f64> {
-        let size = self.angles() + self.inflow_states() * self.nodes;
-        let mut matrix = DMatrix::zeros(size, size);
-        let angles = self.angles();
-        if angles > 0 {
-            matrix
-                .view_mut((0, 0), (angles, angles))
-                .copy_from(&self.turn[1]);
-        }
-        for s in 0..self.inflow_states() {
-            let from = self.place(s, 0);
-            matrix
-                .view_mut((from, from), (self.nodes, self.nodes))
-                .copy_from(&self.passage);
-        }
-        matrix
-    }
-
     /// The slopes of the residual by the values.
     fn slopes(
         &self,
@@ -203,7 +207,7 @@ impl<'a> Collocation<'a> {
         values: &DVector<f64>,
         workspace: &mut Workspace<Dual64>,
     ) -> Result<DMatrix<f64>, SolveError> {
-        let mut slopes = self.derivatives();
+        let mut slopes = self.derivatives.clone();
         let states = self.inflow_states();
         let angles = self.angles();
         for node in 0..self.nodes {
@@ -223,7 +227,7 @@ impl<'a> Collocation<'a> {
                         slopes[(*row, l)] -= rate.eps;
                     } else {
                         for m in 0..angles {
-                            slopes[(*row, m)] -= rate.eps * self.turn[0][(l, m)];
+                            slopes[(*row, m)] -= rate.eps * self.turn[(l, m)];
                         }
                     }
                 }
@@ -232,19 +236,21 @@ impl<'a> Collocation<'a> {
         Ok(slopes)
     }
 
-    /// The motion that repeats itself, searched from a constant one; none if the search fails.
-    fn solve(&self, point: &OperatingPoint, guess: &State) -> Option<DVector<f64>> {
+    /// The motion that repeats itself, searched from a constant one, and whether it was found; if not,
+    /// the closest that was met. None where the equations cannot be computed.
+    fn solve(&self, point: &OperatingPoint, guess: &State) -> Option<(DVector<f64>, bool)> {
         let mut plain = Workspace::new(self.rotor);
         let mut dual = Workspace::new(self.rotor);
         let dual_point = point.map(Dual64::from_re);
         let mut values = self.constant(guess);
         let mut residual = self.residual(point, &values, &mut plain).ok()?;
+        let mut slow_steps = 0;
         for _ in 0..MAX_STEPS {
             let slopes = self.slopes(&dual_point, &values, &mut dual).ok()?;
-            let step = slopes.lu().solve(&-&residual)?;
-            if !step.norm().is_finite() {
-                return None;
-            }
+            let step = slopes.lu().solve(&-&residual);
+            let Some(step) = step.filter(|step| step.norm().is_finite()) else {
+                return Some((values, false));
+            };
             let before = residual.norm();
             let mut part = 1.0;
             let mut closer = None;
@@ -262,19 +268,26 @@ impl<'a> Collocation<'a> {
             let is_small = step.amax() <= TOLERANCE;
             match closer {
                 Some(next) => (values, residual) = next,
-                None => return (is_small || before <= SMALL_RESIDUAL).then_some(values),
+                None => return Some((values, is_small || before <= SMALL_RESIDUAL)),
             }
             if is_small {
-                return Some(values);
+                return Some((values, true));
+            }
+            slow_steps += usize::from(residual.norm() > 0.5 * before);
+            if slow_steps > MAX_SLOW_STEPS {
+                break;
             }
         }
-        (residual.norm() <= SMALL_RESIDUAL).then_some(values)
+        Some((values, residual.norm() <= SMALL_RESIDUAL))
     }
 
-    /// The state with blade 1 at the tail in the motion that repeats itself, searched from a state;
-    /// none if the search fails.
-    pub(super) fn find(&self, point: &OperatingPoint, guess: &State) -> Option<State> {
-        Some(self.first_state(&self.solve(point, guess)?))
+    /// The state with blade 1 at the tail in the motion that repeats itself, searched from a state,
+    /// and whether it was found; if not, a state close to it where there is one.
+    pub(super) fn find(&self, point: &OperatingPoint, guess: &State) -> (State, bool) {
+        match self.solve(point, guess) {
+            Some((values, is_found)) => (self.first_state(&values), is_found),
+            None => (*guess, false),
+        }
     }
 
     /// How that state moves with the operating point, in the direction of the derivatives of
@@ -284,7 +297,7 @@ impl<'a> Collocation<'a> {
         (plain, dual): (&OperatingPoint, &OperatingPoint<Dual64>),
         found: &State,
     ) -> Option<State> {
-        let values = self.solve(plain, found)?;
+        let (values, _) = self.solve(plain, found)?;
         let mut workspace = Workspace::new(self.rotor);
         let mut by_point = DVector::zeros(values.len());
         for node in 0..self.nodes {

@@ -84,23 +84,14 @@ impl Rotor {
         if balance::is_on_stop(self, &balanced) {
             state = balanced;
         }
-        let motion = collocation.find(point, &state);
-        let guess = motion.unwrap_or(state);
+        let (motion, is_motion) = collocation.find(point, &state);
         // Exactly periodic with the steps of the simulation, where that is not too much work.
-        let exact = periodic::find(
-            self,
-            point,
-            guess,
-            motion.is_some(),
-            azimuth_step,
-            workspace,
-        );
-        let exact = if motion.is_none() && exact.is_none() {
-            periodic::turn(self, point, guess, azimuth_step, workspace)
-        } else {
-            exact
-        };
-        let is_found = motion.is_some() || exact.is_some();
+        let mut exact = periodic::find(self, point, motion, is_motion, azimuth_step, workspace);
+        if !is_motion && exact.is_none() && balance::is_on_stop(self, &motion) {
+            exact = periodic::turn(self, point, motion, azimuth_step, workspace);
+        }
+        let is_found = is_motion || exact.is_some();
+        let guess = if is_motion { motion } else { state };
         let mut state = exact.unwrap_or(guess);
         state.speed = point.speed;
         Ok(Started { state, is_found })

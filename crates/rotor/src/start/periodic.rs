@@ -22,14 +22,14 @@ const MAX_STEPS: f64 = 600.0;
 
 /// Maximum number of steps of the search in all, from a motion that `collocation` has found, and
 /// where it has found none. Successful searches take a third.
-const MAX_STEPS_IN_ALL: [f64; 2] = [6000.0, 1500.0];
+const MAX_STEPS_IN_ALL: [f64; 2] = [6000.0, 1000.0];
 
 /// Maximum number of steps of a rotor that turns until its motion repeats itself. Flapping that air
 /// alone damps takes 3000.
-const MAX_STEPS_OF_TURNING: f64 = 6000.0;
+const MAX_STEPS_OF_TURNING: f64 = 4000.0;
 
-/// The periodic state, searched from `guess`, which `is_motion` of `collocation` or not; none if the search fails, or if a blade passage takes
-/// too many steps.
+/// The periodic state, searched from `guess`; none if the search fails, or if a blade passage takes
+/// too many steps. `is_motion`: whether the guess is a motion that `collocation` has found.
 pub(super) fn find(
     rotor: &Rotor,
     point: &OperatingPoint,
@@ -61,11 +61,6 @@ pub(super) fn find(
         Ok(unknowns.of(&passed) - x)
     };
     let found = newton::solve(unknowns.of(&guess), TOLERANCE, residual);
-    if !matches!(found, Ok(Some(_))) {
-        println!(
-            "SHOOTING FAILED steps {steps} slopes {steps_for_slopes} left {left} motion {is_motion}"
-        );
-    }
     Some(unknowns.state(&found.ok()??))
 }
 
