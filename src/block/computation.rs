@@ -20,7 +20,7 @@ use std::sync::Arc;
 
 /// The warning where the search for a steady start fails.
 const NO_STEADY_START: &str = "no state was found in which inflow and flapping repeat themselves; the simulation starts from \
-     the inflow of momentum theory with the blades at the precone angle, and settles by itself (set initialization to rest to \
+     the inflow of momentum theory with the blades at rest, and settles by itself (set initialization to rest to \
      start without inflow and without this search)";
 
 impl RotorBlock {

@@ -12,7 +12,7 @@ use core::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI};
 use rotor::{
     OperatingPoint, Rotor,
     airfoil::{Airfoil, Axis},
-    geometry::{Geometry, Missed},
+    geometry::{Missed, lock_number},
 };
 
 /// Largest chord over the rotor radius, from the most slender blades to wide propellers.
@@ -32,9 +32,6 @@ const LOCK_NUMBERS: (f64, f64) = (1.0, 20.0);
 
 /// Lock number of an ordinary helicopter.
 const USUAL_LOCK_NUMBER: f64 = 8.0;
-
-/// Lift slope of a section for the Lock number, 1/rad.
-const LIFT_SLOPE: f64 = 5.73;
 
 /// Ratio of a Reynolds number to the nearest of the data up to which these serve. At this ratio the
 /// friction drag of a turbulent boundary layer differs by a quarter.
@@ -176,7 +173,7 @@ fn twist_of_file(start: &Initialized) -> Option<String> {
     });
     (has_file(start.values) && high - low > MAX_PITCH).then(|| {
         format!(
-            "{}: the twist varies by {:.1} deg along the blade, beyond 60 deg; is it in degrees, and from the same line at every station?",
+            "{}: the twist varies by {:.1} deg along the blade, beyond 60 deg; is it in degrees, and measured from the same reference line at every station?",
             shape(start.values, ""),
             (high - low).to_degrees()
         )
@@ -316,9 +313,12 @@ fn reynolds(start: &Initialized) -> Option<String> {
         .collect();
     fitting.sort();
     let remedy = if fitting.is_empty() {
-        "no file in the FMU has: give one of your own".to_owned()
+        "no file in the FMU has data there; give one of your own".to_owned()
     } else {
-        format!("these files in the FMU have: {}", fitting.join(", "))
+        format!(
+            "these files in the FMU have data there: {}",
+            fitting.join(", ")
+        )
     };
     let (file, parameter) = match geometry.airfoils[index].as_str() {
         "" => (
@@ -338,23 +338,15 @@ fn reynolds(start: &Initialized) -> Option<String> {
     ))
 }
 
-/// Lock number rho a c R^4/I of a blade with the chord at 0.75 R; `inertia` is that about its
-/// hinge, kg.m2, and `density` that of the air, kg/m3.
-fn lock_number(geometry: &Geometry, inertia: f64, density: f64) -> f64 {
-    let radius_squared = geometry.radius * geometry.radius;
-    let chord = geometry.chord(TYPICAL_RADIUS.max(geometry.cutout()));
-    density * LIFT_SLOPE * chord * radius_squared * radius_squared / inertia
-}
-
 fn lock(start: &Initialized) -> Option<String> {
     let hinge = &start.rotor.models().hinge;
     hinge.freedom?;
     let inertia = hinge.mass.inertia;
     let geometry = start.rotor.geometry();
-    let lock = lock_number(geometry, inertia, start.point.air.density);
+    let lock = lock_number(geometry, inertia);
     (!(LOCK_NUMBERS.0..=LOCK_NUMBERS.1).contains(&lock)).then(|| {
         format!(
-            "the Lock number rho a c R^4/I of the flapping blades is {}, where {} to {} is usual; is the moment of inertia of {} kg.m2 (flapping.inertia) that of a blade of {} m? For a Lock number of {USUAL_LOCK_NUMBER} it would be {} kg.m2",
+            "the Lock number rho a c R^4/I of the flapping blades is {}, where {} to {} is usual; does the moment of inertia of {} kg.m2 (from flapping.inertia, flapping.lockNumber or geometry.file) belong to a blade of {} m? For a Lock number of {USUAL_LOCK_NUMBER} it would be {} kg.m2",
             rounded(lock),
             LOCK_NUMBERS.0,
             LOCK_NUMBERS.1,
@@ -371,7 +363,7 @@ fn thrust(start: &Initialized) -> Option<String> {
     let hovers = tip_speed > 0.0 && point.airspeed.norm() <= HOVER * tip_speed;
     (hovers && reals[real::THRUST_COEFFICIENT] < NO_THRUST).then(|| {
         format!(
-            "the hovering rotor pushes downwards at the start, with a thrust of {} N; is the sign of {} right, and does it count at geometry.pitchReferenceRadius, r/R = {}?",
+            "the hovering rotor pushes downwards at the start, with a thrust of {} N; is the sign of {} right, and is it the pitch at geometry.pitchReferenceRadius, r/R = {}?",
             rounded(reals[real::THRUST]),
             set(start.values, real::COLLECTIVE),
             shown(start.rotor.geometry().pitch_reference_radius)
@@ -754,7 +746,7 @@ mod tests {
             );
         }
         let small = with_reals(&[(real::RPM, 20.0)]);
-        says(&small, &["no file in the FMU has"]);
+        says(&small, &["no file in the FMU has data there"]);
         let station = warned(|block| {
             let file = "pca-2.toml";
             block
@@ -770,9 +762,6 @@ mod tests {
 
     #[test]
     fn lock_numbers_of_blades_of_another_size() {
-        let geometry = Geometry::linear(2, 2.0, 0.2, 0.1, 1.0, 0.0);
-        let lock = lock_number(&geometry, 1.0, 1.2);
-        assert!((lock - 1.2 * 5.73 * 0.1 * 16.0).abs() < 1e-12);
         let with_inertia = |inertia: f64| {
             warned(|block| {
                 let enabled = [boolean::FLAPPING__ENABLED];
@@ -784,11 +773,11 @@ mod tests {
         };
         says(
             &with_inertia(0.005),
-            &["Lock number", "is 24", "flapping.inertia", "0.005 kg.m2"],
+            &["Lock number", "is 23.9", "flapping.inertia", "0.005 kg.m2"],
         );
         says(
             &with_inertia(0.5),
-            &["Lock number", "is 0.24", "it would be 0.015 kg.m2"],
+            &["Lock number", "is 0.239", "it would be 0.0149 kg.m2"],
         );
     }
 

@@ -11,10 +11,9 @@
 
 use crate::support::block::{default_block, get, set, set_boolean, set_integer, set_string};
 use helicopter_rotor::block::{
-    BlockError, RotorBlock, SetupError,
+    BlockError, Note, RotorBlock, SetupError,
     variables::{BooleanRef, IntegerRef, REALS, boolean, integer, real, string},
 };
-use rotor::SolveError;
 use std::{
     f64::consts::PI,
     panic::{AssertUnwindSafe, catch_unwind},
@@ -69,10 +68,11 @@ const STRUCTURE: [&str; 8] = [
     "initialization",
 ];
 
-/// Largest accepted share of runs without a steady state, %.
-const MAX_WITHOUT_STEADY_STATE: f64 = 0.25;
-/// Largest accepted share of runs without a solution, for whatever reason, %.
-const MAX_WITHOUT_SOLUTION: f64 = 0.3;
+/// Largest accepted share of runs that start without a steady or periodic state, %: blades thrown
+/// against their stops, at large pitch and half of the rotor speed, may have none.
+const MAX_WITHOUT_STEADY_STATE: f64 = 4.0;
+/// Largest accepted share of runs without a solution, %.
+const MAX_WITHOUT_SOLUTION: f64 = 0.1;
 
 /// A parameter with a few values.
 #[derive(Debug, Clone, Copy)]
@@ -207,7 +207,7 @@ impl Run {
 enum Outcome {
     Flown,
     Refused,
-    NoSteadyState,
+    FlownWithoutSteadyState,
     Unsolved,
 }
 
@@ -383,6 +383,10 @@ impl Sweep {
             Ok(()) => {}
             Err(error) => return judged(error, &block, before, is_refusal_expected),
         }
+        let is_steady = !block.take_notes().iter().any(|note| match note {
+            Note::Warning(text) => text.contains("no state was found"),
+            Note::Event(_) => false,
+        });
         for step in 0..2 {
             if step == 1 {
                 control(&mut block, step);
@@ -398,7 +402,12 @@ impl Sweep {
                 return Err(format!("{} = {value}", variable.name));
             }
         }
-        Ok((Outcome::Flown, bits(&block)))
+        let outcome = if is_steady {
+            Outcome::Flown
+        } else {
+            Outcome::FlownWithoutSteadyState
+        };
+        Ok((outcome, bits(&block)))
     }
 
     fn checked(&self, run: &Run, twice: bool) -> Outcome {
@@ -434,7 +443,6 @@ fn judged(
             | SetupError::ClosedFormCannotFlap
             | SetupError::ClosedFormNearGround,
         ) if is_refusal_expected => Outcome::Refused,
-        BlockError::Unsolved(SolveError::NoSteadyState, _) => Outcome::NoSteadyState,
         BlockError::Unsolved(..) => Outcome::Unsolved,
         _ => return Err(error.to_string()),
     };
@@ -491,10 +499,7 @@ fn every_combination_of_models_is_finite_or_one_clear_error() {
     println!("{runs} runs: {total:?}");
     assert_eq!(runs, combinations + flights);
     let percent = |part: usize| 100.0 * part as f64 / (runs - refused) as f64;
-    let (steady, all) = (
-        percent(no_steady_state),
-        percent(no_steady_state + unsolved),
-    );
+    let (steady, all) = (percent(no_steady_state), percent(unsolved));
     println!("{steady:.3} % without steady state, {all:.3} % without solution");
     assert!(
         steady <= MAX_WITHOUT_STEADY_STATE && all <= MAX_WITHOUT_SOLUTION,

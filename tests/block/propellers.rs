@@ -32,8 +32,8 @@ fn agree(what: &str, of: impl Fn(&str) -> f64) {
     }
 }
 
-/// Two slender blades: the other models have no swirl, which costs broad blades of high pitch more
-/// than 3 % of their thrust.
+/// Two slender blades: the other models neglect swirl, which takes more than 3 % of the thrust of
+/// broad blades at high pitch.
 const PROPELLER: [(RealRef, f64); 6] = [
     (real::GEOMETRY__RADIUS, 0.127),
     (real::GEOMETRY__CHORD, 0.004),

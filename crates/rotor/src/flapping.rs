@@ -36,16 +36,16 @@
 //! delta is the depth beyond the stop. A blade that rests on its droop stop under its weight lies
 //! delta_w lower than the stop, and comes to rest there with critical damping. A blade that hits a
 //! stop of a turning rotor bends; the second term is the stiffness of the first bending mode of a
-//! hinged blade, whose frequency is about 2.6 times the rotor speed (Johnson 1980, ch. 9). A real
-//! stop is as stiff as the blade that rests on it, and K follows from the blade's inertia, so that
-//! the stops never need shorter steps than a few times the rate of the rotor or of a pendulum of
-//! the blade's length.
+//! hinged blade, whose frequency is about 2.6 times the rotor speed (Johnson 1980, ch. 9). K
+//! follows from the blade's own inertia, so that the natural frequency on a stop, sqrt(K/I), is at
+//! most 2.6 times the rotor speed plus ten times the frequency with which the blade swings as a
+//! pendulum: stops never make the equations much stiffer.
 //!
 //! Assumptions. The hub's velocity and angular velocity and the rotor speed change slowly enough
 //! that their derivatives act neither on the blades nor, by way of their inertia, on the hub. The
 //! hub feels each flapping blade through its spring and, at the offset, through the aerodynamic and
-//! inertia forces of the blade. Of rigid blades it feels the aerodynamic forces and the inertia that
-//! belongs to its own roll and pitch; all other inertia forces cancel among the blades, and one
+//! inertia forces of the blade. Of rigid blades it feels the aerodynamic forces and the inertia
+//! forces due to the hub's roll and pitch rates; all other inertia forces cancel among the blades, and one
 //! blade has a counterweight. Inertia has no part in the force on the hub and in the torque. The
 //! weight of the blades belongs to the vehicle's weight.
 

@@ -67,12 +67,12 @@
 //! v_psi = v (1 + sin^2 chi (r/R) cos psi),   chi = atan(V_x/|V + v|).
 //! ```
 //!
-//! In descent the law's V' takes the place of |V + v|, which passes through 0. The variation is part
-//! of the lift in R, so that the annulus' mean and its momentum keep their balance. As in
+//! In descent the law's V' takes the place of |V + v|, which passes through 0. The lift in R
+//! includes the variation, so that lift and momentum still balance in the mean. As in
 //! AeroDyn (Moriarty & Hansen 2005, NREL/TP-500-36881, ch. 2.4) each annulus has its own chi; in
 //! axial flow nothing changes. Of the linear distributions, Howlett's was chosen after a comparison
-//! with measured inflow and lateral flapping; Pitt & Peters' has less error in the inflow and twice
-//! as much in the flapping.
+//! with measured inflow and lateral flapping (docs/validation.md): annuli with Pitt & Peters' had
+//! less error in the inflow, but more in the flapping.
 //!
 //! At the far end of the bracket the mean flow W vanishes. If strong edgewise flow along a slow
 //! disc leaves the sign of R unchanged even there, that end is taken: the rotor brings its own air

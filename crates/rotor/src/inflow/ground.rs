@@ -11,7 +11,7 @@
 //!   flight tests in hover. Ours: it fades with forward speed as Cheeseman & Bennett's does.
 //!
 //! Ours: only a wake that meets the ground is held back. z is the distance along the shaft to the
-//! ground, the height over the cosine of the shaft's angle from the vertical; a wake that blows
+//! ground, the height divided by the cosine of the shaft's angle from the vertical; a wake that blows
 //! along the ground or away from it feels nothing.
 //!
 //! Ours: heights below R/2 count as R/2. Neither model was tried there, and Cheeseman & Bennett's

@@ -15,7 +15,7 @@ use core::f64::consts::PI;
 use nalgebra::{DMatrix, DVector};
 use num_dual::Dual64;
 
-/// Minimum number of azimuths in a revolution, which resolves 12 harmonics.
+/// Minimum number of azimuths in a revolution, which resolves 11 harmonics.
 const MIN_AZIMUTHS: usize = 24;
 /// Minimum number of azimuths in a blade passage.
 const MIN_IN_PASSAGE: usize = 5;

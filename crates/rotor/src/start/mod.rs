@@ -37,8 +37,8 @@ pub enum Start {
 pub struct Started {
     /// The state, with blade 1 at the tail.
     pub state: State,
-    /// Whether it is what `Start` asks for. If not, no such state was found, and this is the nearest
-    /// that is known: the inflow of momentum theory, with the blades at the precone angle.
+    /// Whether it is what `Start` asks for. If not, none was found, and this is the inflow of momentum
+    /// theory with the blades at rest: at the precone angle or, where they would lie on a stop, on it.
     pub is_found: bool,
 }
 
