@@ -12,7 +12,7 @@ use super::{
     variables::{Causality, RealRef, STATES, real},
 };
 use num_dual::Dual64;
-use rotor::{OperatingPoint, Rotor, State};
+use rotor::{OperatingPoint, Rotor, SolveError, State};
 use thiserror::Error;
 
 /// Why a derivative was not computed.
@@ -138,6 +138,10 @@ impl RotorBlock {
     ) -> Result<State<Dual64>, BlockError> {
         if self.stage != Stage::Configuring {
             return Ok(read_states(reals));
+        }
+        if !self.has_start {
+            // The state does not follow from a condition that could be differentiated.
+            return Err(self.unsolved(SolveError::NoSteadyState));
         }
         let plain = FlightCondition::new(&self.values)?.point;
         let start = setup::start(&self.values)?;

@@ -30,9 +30,10 @@ impl ReadFile {
 pub fn changes(saved: &[FileHash], files: &[ReadFile]) -> Vec<String> {
     let mut warnings: Vec<String> = Vec::new();
     for file in files {
-        let has_changed =
-            |saved: &FileHash| saved.name == file.content.name && saved.hash != file.content.hash;
-        if saved.iter().any(has_changed) {
+        // A rotor and an airfoil may have one name in folders of their own.
+        let is_named = |saved: &&FileHash| saved.name == file.content.name;
+        let mut named = saved.iter().filter(is_named).peekable();
+        if named.peek().is_some() && named.all(|saved| saved.hash != file.content.hash) {
             let warning = format!(
                 "the file {} has changed since the state was saved, and the rotor is that of the present file: results differ from those of the saved simulation; restore the file to continue with its rotor",
                 file.path.display()

@@ -13,6 +13,7 @@ use rotor::{
     OperatingPoint, Rotor,
     airfoil::{Airfoil, Axis},
     geometry::{Missed, lock_number},
+    scalar::Scalar,
 };
 
 /// Largest chord over the rotor radius, from the most slender blades to wide propellers.
@@ -251,7 +252,9 @@ fn missed_station(start: &Initialized) -> Option<String> {
 fn tip_mach(start: &Initialized) -> Option<String> {
     let reals = &start.values.reals;
     let hover = reals[real::TIP_MACH];
-    let advancing = hover * (1.0 + reals[real::ADVANCE_RATIO]);
+    let air = &start.point.airspeed;
+    let edgewise = start.point.speed * start.rotor.geometry().radius + Scalar::hypot(air.x, air.y);
+    let advancing = Scalar::hypot(edgewise, air.z) / start.point.air.speed_of_sound;
     let elements = start.rotor.elements();
     let tip = elements.outer_airfoil.last()?;
     let airfoil = &start.rotor.airfoils()[*tip];
@@ -704,6 +707,8 @@ mod tests {
         );
         let advancing = at(&[(real::RPM, 3500.0), (real::VELOCITY_1, 70.0)]);
         says(&advancing, &["is 1.03 (0.821 by rotation alone)"]);
+        let stopped = at(&[(real::RPM, 0.0), (real::VELOCITY_1, 500.0)]);
+        says(&stopped, &["is 1.47 (0 by rotation alone)"]);
         let path = std::env::temp_dir().join(format!("{}-two-machs.c81", std::process::id()));
         let table = |values: &str| format!("0.1 0.3\n-180 {values}\n180 {values}\n");
         let text = format!("two 2 2 2 2\n{}{}", table("0 0"), table("0.01 0.02"));

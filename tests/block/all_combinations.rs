@@ -70,7 +70,7 @@ const STRUCTURE: [&str; 8] = [
 
 /// Largest accepted share of runs that start without a steady or periodic state, %: blades thrown
 /// against their stops, at large pitch and half of the rotor speed, may have none.
-const MAX_WITHOUT_STEADY_STATE: f64 = 4.0;
+const MAX_WITHOUT_STEADY_STATE: f64 = 2.5;
 /// Largest accepted share of runs without a solution, %.
 const MAX_WITHOUT_SOLUTION: f64 = 0.1;
 

@@ -258,3 +258,17 @@ fn thrust_does_not_jump_near_zero_with_any_tip_loss() {
         }
     }
 }
+
+/// The squares of these speeds are 0.
+#[test]
+fn a_rotor_that_hardly_turns_has_hardly_any_load() {
+    for inflow in integer::MODELS__INFLOW.variable().choices {
+        for rpm in [1e-60, 1e-85, 1e-120, 1e-200] {
+            let mut block = default_block();
+            choose(&mut block, integer::MODELS__INFLOW, inflow);
+            set(&mut block, real::RPM, rpm);
+            block.update().unwrap();
+            assert!(get(&block, real::THRUST).abs() < 1e-60, "{inflow} {rpm}");
+        }
+    }
+}

@@ -5,7 +5,7 @@ use crate::support::block::{
     choice, choose, default_block, enable_flapping, get, set, set_integer,
 };
 use helicopter_rotor::block::{
-    RotorBlock,
+    Note, RotorBlock,
     variables::{IntegerRef, RealRef, integer, real},
 };
 use std::f64::consts::PI;
@@ -248,4 +248,25 @@ fn a_precone_beyond_the_stops_is_refused() {
     set(&mut block, real::FLAPPING__HIGHEST_ANGLE, 0.05);
     let error = block.start().unwrap_err().to_string();
     assert!(error.contains("lies beyond the stops"), "{error}");
+}
+
+/// Blades much too light for their lift balance far beyond the stops. That is no motion of a rotor:
+/// the start says so, and has no derivatives.
+#[test]
+fn a_start_without_a_steady_state_is_a_warning() {
+    let mut block = default_block();
+    enable_flapping(&mut block);
+    set(&mut block, real::FLAPPING__INERTIA, 1e-9);
+    block.update().unwrap();
+    let warned = block.take_notes().iter().any(|note| match note {
+        Note::Warning(text) => text.contains("no state was found"),
+        Note::Event(_) => false,
+    });
+    assert!(warned);
+    assert!(get(&block, real::STATE__FLAP_ANGLE_1).abs() < 0.61);
+    let error = block
+        .directional_derivative(&[real::THRUST], &[real::COLLECTIVE], &[1.0])
+        .map(|_| ())
+        .unwrap_err();
+    assert!(error.to_string().contains("initialization"), "{error}");
 }

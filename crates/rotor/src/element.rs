@@ -161,16 +161,17 @@ impl<S: Scalar> Element<'_, S> {
         let forward = section.in_plane / length(section.in_plane, C(ROUNDING) * through);
         let alpha = self.pitch + section.pitch - through.atan2(section.in_plane);
         let lift = forward * self.lift_coefficient(alpha, speed) * speed / (2.0 * PI);
-        if lift.value() == 0.0 && mean.value() == 0.0 {
-            return mean;
-        }
         let limit = length(lift, C(ROUNDING) * mean);
         let added = mean / factor - mean;
         // 1 where lift and mean have the same direction, 0 where they have not.
         let product = mean * lift;
         let sum = C(SHARPNESS) * (mean * mean + lift * lift);
-        let share = C(0.5) * (C(1.0) + product / length(product, sum));
-        mean + share * added * (limit / length(added, limit))
+        let (same, size) = (length(product, sum), length(added, limit));
+        if same.value() == 0.0 || size.value() == 0.0 {
+            return mean; // no lift and nothing induced, or so little that its square vanishes
+        }
+        let share = C(0.5) * (C(1.0) + product / same);
+        mean + share * added * (limit / size)
     }
 
     /// Loads of the section at a pitch (rad) in a flow with the components `in_plane` against the

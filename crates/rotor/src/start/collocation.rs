@@ -297,7 +297,10 @@ impl<'a> Collocation<'a> {
         (plain, dual): (&OperatingPoint, &OperatingPoint<Dual64>),
         found: &State,
     ) -> Option<State> {
-        let (values, _) = self.solve(plain, found)?;
+        let (values, is_found) = self.solve(plain, found)?;
+        if !is_found {
+            return None;
+        }
         let mut workspace = Workspace::new(self.rotor);
         let mut by_point = DVector::zeros(values.len());
         for node in 0..self.nodes {

@@ -42,6 +42,12 @@ pub struct Started {
     pub is_found: bool,
 }
 
+/// Distance to a stop within which the blades may hit it elsewhere in the revolution, rad.
+const NEAR_STOP: f64 = 0.1;
+
+/// Depth beyond a stop that no blade of a rotor reaches, rad.
+const FAR_BEYOND_STOP: f64 = 0.2;
+
 /// Tolerance of the states, each divided by its scale in `Unknowns`.
 const TOLERANCE: f64 = 1e-10;
 
@@ -87,14 +93,23 @@ impl Rotor {
         let (motion, is_motion) = collocation.find(point, &state);
         // Exactly periodic with the steps of the simulation, where that is not too much work.
         let mut exact = periodic::find(self, point, motion, is_motion, azimuth_step, workspace);
-        if !is_motion && exact.is_none() && balance::is_on_stop(self, &motion) {
+        if !is_motion && exact.is_none() && self.reaches_stops(&motion, -NEAR_STOP) {
             exact = periodic::turn(self, point, motion, azimuth_step, workspace);
         }
-        let is_found = is_motion || exact.is_some();
-        let guess = if is_motion { motion } else { state };
-        let mut state = exact.unwrap_or(guess);
+        let exact = exact.or(is_motion.then_some(motion));
+        // Blades much too light for their lift balance far beyond the stops: no motion of a rotor.
+        let exact = exact.filter(|found| !self.reaches_stops(found, FAR_BEYOND_STOP));
+        let is_found = exact.is_some();
+        let mut state = exact.unwrap_or(state);
         state.speed = point.speed;
         Ok(Started { state, is_found })
+    }
+
+    /// Whether a blade lies this far beyond a stop, rad, or further; negative before the stop.
+    fn reaches_stops(&self, state: &State, depth: f64) -> bool {
+        let flaps = &state.flaps[..self.flapping_blades()];
+        let freedom = self.models().hinge.freedom;
+        freedom.is_some_and(|f| flaps.iter().any(|flap| f.stops.excess(flap.angle) > depth))
     }
 
     /// Hub loads in steady flight. Where they vary with azimuth, they are those with blade 1 at the
@@ -107,7 +122,8 @@ impl Rotor {
 
     /// The state at the start with its derivatives in the direction of those of `dual`. `plain` is
     /// the operating point with the values of `dual`, and `found` the state that `start` returned
-    /// for it. Fails as `start` does.
+    /// for it, as steady or periodic. Fails as `start` does, or where the condition cannot be
+    /// differentiated.
     ///
     /// The condition of the start, steady inflow or a periodic state, is differentiated at its
     /// solution.

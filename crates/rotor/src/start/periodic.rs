@@ -18,15 +18,18 @@ const STEP_FOR_SLOPES: f64 = PI / 12.0;
 
 /// Maximum number of steps in a blade passage. Rotors that need more, because they turn slowly or
 /// have stiff blades, start from the motion of `collocation`.
-const MAX_STEPS: f64 = 600.0;
+const MAX_STEPS: f64 = 300.0;
 
 /// Maximum number of steps of the search in all, from a motion that `collocation` has found, and
 /// where it has found none. Successful searches take a third.
-const MAX_STEPS_IN_ALL: [f64; 2] = [6000.0, 1000.0];
+const MAX_STEPS_IN_ALL: [f64; 2] = [3000.0, 1000.0];
+
+/// Computations of the loads for one where the end of the lift depends on the thrust.
+const LOADS_FOR_THRUST: f64 = 10.0;
 
 /// Maximum number of steps of a rotor that turns until its motion repeats itself. Flapping that air
 /// alone damps takes 3000.
-const MAX_STEPS_OF_TURNING: f64 = 4000.0;
+const MAX_STEPS_OF_TURNING: f64 = 3000.0;
 
 /// The periodic state, searched from `guess`; none if the search fails, or if a blade passage takes
 /// too many steps. `is_motion`: whether the guess is a motion that `collocation` has found.
@@ -47,7 +50,7 @@ pub(super) fn find(
         Some(_) | None => steps,
     };
     let unknowns = Unknowns::of_periodic_state(rotor, point);
-    let mut left = MAX_STEPS_IN_ALL[usize::from(!is_motion)];
+    let mut left = MAX_STEPS_IN_ALL[usize::from(!is_motion)] / cost(rotor);
     let residual = |x: &DVector<f64>, purpose| -> Result<DVector<f64>, SolveError> {
         let steps = match purpose {
             newton::Use::Value => steps,
@@ -79,7 +82,7 @@ pub(super) fn turn(
     let steps = steps(rotor, point, &guess, azimuth_step)?;
     let unknowns = Unknowns::of_periodic_state(rotor, point);
     let mut x = unknowns.of(&guess);
-    for _ in 0..(MAX_STEPS_OF_TURNING / steps) as u32 {
+    for _ in 0..(MAX_STEPS_OF_TURNING / cost(rotor) / steps) as u32 {
         let passed = after_passage(rotor, point, &unknowns.state(&x), steps, workspace).ok()?;
         let next = unknowns.of(&passed);
         let change = (&next - &x).norm();
@@ -111,6 +114,15 @@ pub(super) fn steps(
 fn cells(rotor: &Rotor, point: &OperatingPoint, longest: f64) -> f64 {
     let turn = passage(rotor, point) * point.speed;
     libm::ceil(turn / longest * (1.0 - 1e-9)).max(1.0)
+}
+
+/// Computations of the loads in a stage of a step.
+fn cost(rotor: &Rotor) -> f64 {
+    let blades = f64::from(rotor.geometry().blades);
+    match rotor.models().tip_loss.end_at_thrust(blades, 0.0) {
+        Some(_) => LOADS_FOR_THRUST,
+        None => 1.0,
+    }
 }
 
 /// The state after a blade passage, with the blades renumbered so that it equals `state` if that is
