@@ -76,7 +76,7 @@ const FLIGHTS: [Flight; 6] = [
         name: "near the ground",
         velocity: [17.2, 3.0, 1.0],
         difference: Difference::Central,
-        step: 1e-4,
+        step: 2e-5,
         bound: 1e-7,
         settings: |block| {
             if block.values().integers[integer::MODELS__INFLOW] != 1 {
