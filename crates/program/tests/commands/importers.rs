@@ -496,7 +496,7 @@ fn rotor_slows_down_after_the_failure(rows: &[Row]) -> f64 {
 fn descent_is_steady_in_autorotation(rows: &[Row], torque: f64) {
     let hover = value(&rows[0], "rpm");
     let weight = value(&rows[0], "thrust");
-    let steady = between(rows, 18.0, 22.0);
+    let steady = between(rows, 18.0, 21.5);
     let hover_inflow = 6.9836; // m/s, of 1200 kg on a radius of 5.6 m at 1.225 kg/m3
     for row in &steady {
         let sink = value(row, "sink_rate");

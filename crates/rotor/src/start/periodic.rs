@@ -24,6 +24,9 @@ const MAX_STEPS: f64 = 300.0;
 /// where it has found none. Successful searches take a third.
 const MAX_STEPS_IN_ALL: [f64; 2] = [3000.0, 1000.0];
 
+/// Blade passages at the azimuth step that come to these.
+const PASSAGES: f64 = 10.0;
+
 /// Computations of the loads for one where the end of the lift depends on the thrust.
 const LOADS_FOR_THRUST: f64 = 10.0;
 
@@ -43,14 +46,15 @@ pub(super) fn find(
 ) -> Option<State> {
     let count = |longest: f64| steps(rotor, point, &guess, longest);
     let steps = count(azimuth_step)?;
-    // Stiff blades, which need more steps than the azimuth, need the same for their slopes.
+    // Stiff blades, which need many more steps than the azimuth, need as many for their slopes.
     let coarse = cells(rotor, point, azimuth_step.max(STEP_FOR_SLOPES));
     let steps_for_slopes = match count(azimuth_step.max(STEP_FOR_SLOPES)) {
-        Some(steps) if steps == coarse => steps,
+        Some(few) if few <= 4.0 * coarse => few,
         Some(_) | None => steps,
     };
     let unknowns = Unknowns::of_periodic_state(rotor, point);
-    let mut left = MAX_STEPS_IN_ALL[usize::from(!is_motion)] / cost(rotor);
+    let passages = PASSAGES * cells(rotor, point, azimuth_step);
+    let mut left = (MAX_STEPS_IN_ALL[usize::from(!is_motion)] + passages) / cost(rotor);
     let residual = |x: &DVector<f64>, purpose| -> Result<DVector<f64>, SolveError> {
         let steps = match purpose {
             newton::Use::Value => steps,
@@ -107,7 +111,8 @@ pub(super) fn steps(
     }
     let cells = cells(rotor, point, longest);
     let steps = cells * rotor.stable_steps(point, state, passage(rotor, point) / cells);
-    (steps <= MAX_STEPS).then_some(steps)
+    // A fine azimuth step is the user's choice.
+    (steps <= MAX_STEPS.max(2.0 * cells)).then_some(steps)
 }
 
 /// Number of steps in a blade passage, each at most `longest` (rad), by azimuth alone.
