@@ -28,6 +28,7 @@ pub struct Snapshot {
     since: Option<GridPoint>,
     fresh: Fresh,
     flow_state: i32,
+    has_start: bool,
     /// Of the rotor; empty if it has not been made yet.
     files: Vec<FileHash>,
 }
@@ -48,6 +49,7 @@ impl RotorBlock {
             since: self.memory.since.map(GridPoint),
             fresh: self.fresh,
             flow_state: self.flow_state,
+            has_start: self.has_start,
             files: if self.rotor.is_some() {
                 self.files.iter().map(|file| file.content.clone()).collect()
             } else {
@@ -92,6 +94,7 @@ impl RotorBlock {
         };
         self.fresh = snapshot.fresh;
         self.flow_state = snapshot.flow_state;
+        self.has_start = snapshot.has_start;
         Ok(())
     }
 }

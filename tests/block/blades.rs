@@ -264,9 +264,13 @@ fn a_start_without_a_steady_state_is_a_warning() {
     });
     assert!(warned);
     assert!(get(&block, real::STATE__FLAP_ANGLE_1).abs() < 0.61);
-    let error = block
-        .directional_derivative(&[real::THRUST], &[real::COLLECTIVE], &[1.0])
-        .map(|_| ())
-        .unwrap_err();
-    assert!(error.to_string().contains("initialization"), "{error}");
+    let mut restored = default_block();
+    restored.restore(&block.snapshot()).unwrap();
+    for mut block in [block, restored] {
+        let error = block
+            .directional_derivative(&[real::THRUST], &[real::COLLECTIVE], &[1.0])
+            .map(|_| ())
+            .unwrap_err();
+        assert!(error.to_string().contains("initialization"), "{error}");
+    }
 }
