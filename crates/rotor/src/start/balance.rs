@@ -27,9 +27,9 @@ const MAX_COMPUTATIONS: usize = 20;
 
 /// The state with each blade in balance at its azimuth.
 ///
-/// The moment of the air is computed again at the angles that balance the last one, until they stay.
-/// They always do on a stop, which is far stiffer than the air; where they do not, the last angles
-/// are the result. Fails if the loads cannot be computed.
+/// The moment of the air is computed again at the angles that balance the last one, until they
+/// stay. They always do on a stop, which is far stiffer than the air; where they do not, the last
+/// angles are the result. Fails if the loads cannot be computed.
 pub(super) fn find<S: Scalar>(
     rotor: &Rotor,
     point: &OperatingPoint<S>,
@@ -59,13 +59,6 @@ pub(super) fn without_air<S: Scalar>(
     state: &State<S>,
 ) -> State<S> {
     under(&rotor.evaluate(point, state), &[S::zero(); AZIMUTHS])
-}
-
-/// Whether a blade lies beyond one of its stops.
-pub(super) fn is_on_stop(rotor: &Rotor, state: &State) -> bool {
-    let freedom = rotor.models().hinge.freedom;
-    let flaps = &state.flaps[..rotor.flapping_blades()];
-    freedom.is_some_and(|freedom| flaps.iter().any(|f| freedom.stops.excess(f.angle) > 0.0))
 }
 
 /// The state of an evaluation with the angles that balance these moments of the air, N.m.

@@ -236,8 +236,8 @@ impl<'a> Collocation<'a> {
         Ok(slopes)
     }
 
-    /// The motion that repeats itself, searched from a constant one, and whether it was found; if not,
-    /// the closest that was met. None where the equations cannot be computed.
+    /// The motion that repeats itself, searched from a constant one, and whether it was found; if
+    /// not, the closest that was met. None where the equations cannot be computed.
     fn solve(&self, point: &OperatingPoint, guess: &State) -> Option<(DVector<f64>, bool)> {
         let mut plain = Workspace::new(self.rotor);
         let mut dual = Workspace::new(self.rotor);

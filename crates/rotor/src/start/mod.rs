@@ -37,8 +37,9 @@ pub enum Start {
 pub struct Started {
     /// The state, with blade 1 at the tail.
     pub state: State,
-    /// Whether it is what `Start` asks for. If not, none was found, and this is the inflow of momentum
-    /// theory with the blades at rest: at the precone angle or, where they would lie on a stop, on it.
+    /// Whether it is what `Start` asks for. If not, none was found, and this is the inflow of
+    /// momentum theory with the blades at rest: at the precone angle or, where they would lie on a
+    /// stop, on it.
     pub is_found: bool,
 }
 
@@ -87,7 +88,7 @@ impl Rotor {
             return Ok(found(balance::find(self, point, &state, workspace)?));
         };
         let balanced = balance::without_air(self, point, &state);
-        if balance::is_on_stop(self, &balanced) {
+        if self.reaches_stops(&balanced, 0.0) {
             state = balanced;
         }
         let (motion, is_motion) = collocation.find(point, &state);

@@ -53,13 +53,12 @@ pub(super) fn find(
     let count = inflow.state_count();
     let per_rate = radius / (speed * speed);
     let unknowns = Unknowns::of_inflow(rotor, speed);
-    let found = newton::solve(unknowns.of(&guess), TOLERANCE, |x, _| {
+    let found = newton::solve::<SolveError>(unknowns.of(&guess), TOLERANCE, |x, _| {
         let rates = rates(rotor, point, &unknowns.state(x), workspace)?;
         let scaled = rates.inflow[..count].iter().map(|r| r * per_rate);
         Ok(DVector::from_iterator(count, scaled))
     });
     // An error here comes from a guess far off: the momentum equation was solved above.
-    let found: Result<_, SolveError> = found;
     Ok(match found {
         Ok(Some(found)) => SteadyInflow {
             states: unknowns.state(&found).inflow,
