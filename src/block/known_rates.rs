@@ -1,6 +1,6 @@
-//! Rates of the states that have been computed already. A step begins where outputs were computed or
-//! where the last step began, so that its first stage is known there. This spares an evaluation in
-//! four and never changes a bit.
+//! Rates of the states that have been computed already. A step begins where outputs were computed
+//! or where the last step began, so that its first stage is known there. This spares an evaluation
+//! in four and never changes a bit.
 
 use rotor::{OperatingPoint, Rotor, State};
 use std::sync::Arc;

@@ -1,6 +1,6 @@
 //! Why the rotor of the PCA-2 autogiro (Wheatley 1934, NACA Report 487) has too little thrust at
-//! high advance ratios. crates/program/tests/commands/validation.rs compares the rotor with all flight
-//! measurements; this test shows the cause of the difference.
+//! high advance ratios. crates/program/tests/commands/validation.rs compares the rotor with all
+//! flight measurements; this test shows the cause of the difference.
 //!
 //! The rotor is rotors/pca-2.toml at the pitch of the report, in air of the tests' mean density (p.
 //! 13), at the measured rotor speed and at the shaft angle at which the mean torque is 0. The

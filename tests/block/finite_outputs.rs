@@ -43,7 +43,8 @@ fn every_inflow_model_without_states_is_finite_at_every_advance_climb_pitch_and_
     let mut count = 0;
     let choices = integer::MODELS__INFLOW.variable().choices;
     for (inflow, name) in (1..).zip(choices) {
-        // Models with states need a steady start, which may not exist. all_combinations.rs has them.
+        // Models with states need a steady start, which may not exist. all_combinations.rs has
+        // them.
         if ["pittPetersDynamic", "petersHe"].contains(name) {
             continue;
         }

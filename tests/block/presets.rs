@@ -1,5 +1,6 @@
 //! The presets: each is read and hovers, and those that were measured in hover are compared with
-//! the measurement. Knight & Hefner's rotors are compared in crates/program/tests/commands/importers.rs.
+//! the measurement. Knight & Hefner's rotors are compared in
+//! crates/program/tests/commands/importers.rs.
 
 use crate::support::block::{choose, default_block, project, resources, set_string};
 use helicopter_rotor::block::{

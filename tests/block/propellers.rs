@@ -1,6 +1,6 @@
-//! Propellers and rotors that the wind turns: large inflow angles, where Prandtl's tip loss must not
-//! take lift away that nothing induces. Where the disc is axially symmetric all inflow models agree
-//! with the momentum balance of each annulus.
+//! Propellers and rotors that the wind turns: large inflow angles, where Prandtl's tip loss must
+//! not take lift away that nothing induces. Where the disc is axially symmetric all inflow models
+//! agree with the momentum balance of each annulus.
 
 use crate::support::block::{choose, default_block, get, set, set_integer};
 use helicopter_rotor::block::{

@@ -45,9 +45,9 @@
 //! that their derivatives act neither on the blades nor, by way of their inertia, on the hub. The
 //! hub feels each flapping blade through its spring and, at the offset, through the aerodynamic and
 //! inertia forces of the blade. Of rigid blades it feels the aerodynamic forces and the inertia
-//! forces due to the hub's roll and pitch rates; all other inertia forces cancel among the blades, and one
-//! blade has a counterweight. Inertia has no part in the force on the hub and in the torque. The
-//! weight of the blades belongs to the vehicle's weight.
+//! forces due to the hub's roll and pitch rates; all other inertia forces cancel among the blades,
+//! and one blade has a counterweight. Inertia has no part in the force on the hub and in the
+//! torque. The weight of the blades belongs to the vehicle's weight.
 
 use super::{
     air::STANDARD_GRAVITY,
@@ -58,7 +58,8 @@ use super::{
 use core::f64::consts::PI;
 use nalgebra::Vector3;
 
-/// The flapping hinges and the blades' mass. Blades that do not flap are rigid at the precone angle.
+/// The flapping hinges and the blades' mass. Blades that do not flap are rigid at the precone
+/// angle.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Hinge {
     /// Distance of the hinges from the shaft, m.

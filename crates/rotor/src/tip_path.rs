@@ -34,9 +34,9 @@ impl<S: Scalar> TipPath<S> {
     /// From three blades on, the mean of the flap angles and twice their means with cos psi and sin
     /// psi (the multiblade coordinates, Johnson 1980, ch. 8.4). One or two flap angles do not
     /// define a cone: for each, beta = a0 - a1 cos psi - b1 sin psi with its first two derivatives
-    /// does, and the mean over the blades is taken. A blade that moves too fast for that, or a rotor
-    /// so slow that weight moves its blades more than the rotation does, defines no cone. The flap
-    /// angle then counts as coning; Hermite's weight leads from one to the other.
+    /// does, and the mean over the blades is taken. A blade that moves too fast for that, or a
+    /// rotor so slow that weight moves its blades more than the rotation does, defines no cone. The
+    /// flap angle then counts as coning; Hermite's weight leads from one to the other.
     pub(crate) fn new(evaluation: &Evaluation<S>, loads: &DiscLoads<S>) -> Self {
         let hinge = &evaluation.rotor.models().hinge;
         let mut path = Self {
@@ -80,8 +80,8 @@ impl<S: Scalar> TipPath<S> {
     }
 }
 
-/// `weight` times Hermite's weight, which falls from 1 where `x` is at most `limit` to 0 where it is
-/// twice that. None for 0: derivatives there are infinite or not a number at standstill.
+/// `weight` times Hermite's weight, which falls from 1 where `x` is at most `limit` to 0 where it
+/// is twice that. None for 0: derivatives there are infinite or not a number at standstill.
 fn defined<S: Scalar>(x: S, limit: f64, weight: Option<S>) -> Option<S> {
     if x.value() <= limit {
         weight

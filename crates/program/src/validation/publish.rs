@@ -21,7 +21,7 @@ fn docs() -> PathBuf {
     sources().join("docs")
 }
 
-/// Checks that the README has its marks for the summary, before the flights, which take a minute.
+/// Checks that the README has its marks for the summary, before the flights, which take minutes.
 pub fn check_readme() -> Result<(), Failure> {
     summary::read().map(|_| ())
 }

@@ -8,8 +8,8 @@ use std::{
     process::Command,
 };
 
-/// The program in a new target folder, in which there is no Python environment yet. It is a link, as
-/// a copy being written is "busy" to a process that another test starts at that moment.
+/// The program in a new target folder, in which there is no Python environment yet. It is a link,
+/// as a copy being written is "busy" to a process that another test starts at that moment.
 fn installed(name: &str) -> PathBuf {
     let folder = support::scratch().join(name).join("debug");
     fs::create_dir_all(&folder).unwrap();

@@ -102,8 +102,8 @@ fn thrust_of_castles_and_grays_rotor_in_hover() {
     assert!(thrust.mean_absolute <= 8.0, "{thrust:?}");
 }
 
-/// On short blades the tip loss that takes away all lift at the tip gives the better thrust, but not
-/// the better loads along the blade.
+/// On short blades the tip loss that takes away all lift at the tip gives the better thrust, but
+/// not the better loads along the blade.
 #[test]
 fn thrust_of_caradonna_and_tungs_short_blades() {
     let case = "Caradonna & Tung";
@@ -158,8 +158,8 @@ fn inflow_over_the_disc_in_forward_flight() {
     }
 }
 
-/// With the measured law of descent, for every inflow model and both rotors, and with the law fitted
-/// to other runs.
+/// With the measured law of descent, for every inflow model and both rotors, and with the law
+/// fitted to other runs.
 #[test]
 fn collective_for_a_thrust_in_descent() {
     let rows = errors_of("Castles & Gray 1951, descent", "collective");

@@ -79,9 +79,9 @@ impl Elements {
         is_inner || is_outer
     }
 
-    /// The first station that is nearer to a neighbour than an element is wide and that the elements
-    /// miss, by its index. A step is not missed if both of its sides are shown, nor is a rounded
-    /// tip.
+    /// The first station that is nearer to a neighbour than an element is wide and that the
+    /// elements miss, by its index. A step is not missed if both of its sides are shown, nor is a
+    /// rounded tip.
     pub fn missed_station(&self, geometry: &Geometry) -> Option<(usize, Missed)> {
         let width = self.width / geometry.radius;
         (0..geometry.stations.len()).find_map(|index| {

@@ -10,7 +10,7 @@
 //!     { r = 1.0, chord = 0.05, twist = -8.0, airfoil = "airfoils/naca0015.polar" },
 //! ]
 //! [flapping]
-//! inertia = 0.04                 # of one blade about its hinge, kg.m2; or lockNumber, see `inertia`
+//! inertia = 0.04                # of one blade about its hinge, kg.m2; or lockNumber
 //! ```
 //!
 //! `name` and `source` are free text. Only differences of `twist` between stations count: the

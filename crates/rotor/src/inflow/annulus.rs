@@ -55,10 +55,10 @@
 //!          - s mean((W_psi/U)^2 cl_psi cos(phi_psi - phi)),
 //! ```
 //!
-//! with W_psi the flow at each blade position. Where all azimuths are alike it is the equation above
-//! times cos(phi - phi0). The lift is projected on the direction of the induced velocity, and so is
-//! the momentum. Where blades are computed one by one they take the place of the azimuths, and the
-//! balance holds at each instant.
+//! with W_psi the flow at each blade position. Where all azimuths are alike it is the equation
+//! above times cos(phi - phi0). The lift is projected on the direction of the induced velocity, and
+//! so is the momentum. Where blades are computed one by one they take the place of the azimuths,
+//! and the balance holds at each instant.
 //!
 //! The wake of a disc in edgewise flow is skewed, and induces more at the rear than at the front:
 //! the induced velocity varies around the annulus like Howlett's (1981, NASA CR-166309),
@@ -191,7 +191,8 @@ fn mean_residual<S: Scalar>(
     factor * 4.0 * resultant * induced_part - lift * element.solidity()
 }
 
-/// The variation around the annulus that the skew of the wake gives; `axial`: induced velocity, m/s.
+/// The variation around the annulus that the skew of the wake gives; `axial`: induced velocity,
+/// m/s.
 fn skew<S: Scalar>(
     element: &Element<S>,
     flow: &DiscFlow<S>,

@@ -11,8 +11,8 @@
 //!   flight tests in hover. Ours: it fades with forward speed as Cheeseman & Bennett's does.
 //!
 //! Ours: only a wake that meets the ground is held back. z is the distance along the shaft to the
-//! ground, the height divided by the cosine of the shaft's angle from the vertical; a wake that blows
-//! along the ground or away from it feels nothing.
+//! ground, the height divided by the cosine of the shaft's angle from the vertical; a wake that
+//! blows along the ground or away from it feels nothing.
 //!
 //! Ours: heights below R/2 count as R/2. Neither model was tried there, and Cheeseman & Bennett's
 //! would become infinite. From z = 2 R to 3 R both fade out.

@@ -781,8 +781,8 @@ fn stopped(gravity: f64) -> OperatingPoint {
     }
 }
 
-/// The weight S g cos(beta) of a blade presses it 0.01 rad cos(beta) into the stop. The stop carries
-/// its moment to the hub.
+/// The weight S g cos(beta) of a blade presses it 0.01 rad cos(beta) into the stop. The stop
+/// carries its moment to the hub.
 #[test]
 fn a_blade_rests_on_its_stop_under_its_weight() {
     for (gravity, stop) in [(-STANDARD_GRAVITY, -0.1), (STANDARD_GRAVITY, 0.2)] {
@@ -844,7 +844,8 @@ fn a_stop_pushes_only_and_without_a_jump() {
     }
 }
 
-/// A blade that falls onto its droop stop comes to rest there, without jumping back to where it was.
+/// A blade that falls onto its droop stop comes to rest there, without jumping back to where it
+/// was.
 #[test]
 fn a_falling_blade_comes_to_rest_on_its_stop() {
     let rotor = Build {
