@@ -1,8 +1,10 @@
 //! `HelicopterRotor.fmu`: a helicopter rotor behind FMI 2.0, for Co-Simulation and Model Exchange.
 //!
 //! Data flows one way: importer, `fmi2`, `block`, the crate `rotor`, and back. `fmi2` is the C
-//! interface, `block` says which variable feeds which quantity, and `rotor` is the physics.
+//! interface, `block` says which variable feeds which quantity, and `rotor` is the physics. `host`
+//! deals with what the importer's process does to the library.
 
 pub mod block;
 pub mod description;
 pub mod fmi2;
+mod host;

@@ -1,7 +1,6 @@
 //! Where the FMU's resources are: where the importer says, else beside this library.
 
-use super::creation::fmi2Instantiate;
-use crate::block::path_from_uri;
+use crate::{block::path_from_uri, host::library_file::library_file};
 use std::path::PathBuf;
 
 /// A folder in our resources, by which they are recognised.
@@ -21,27 +20,4 @@ pub fn resources(location: Option<&str>) -> PathBuf {
         Some(unpacked.join("resources"))
     });
     beside.unwrap_or_else(|| PathBuf::from("resources"))
-}
-
-/// The file of this shared library.
-#[cfg(unix)]
-fn library_file() -> Option<PathBuf> {
-    use std::os::unix::ffi::OsStrExt;
-    let address = fmi2Instantiate as *const ();
-    // SAFETY: `info` is a plain C structure for which zeros are valid; dladdr writes it.
-    let name = unsafe {
-        let mut info: libc::Dl_info = std::mem::zeroed();
-        if libc::dladdr(address.cast(), &mut info) == 0 || info.dli_fname.is_null() {
-            return None;
-        }
-        std::ffi::CStr::from_ptr(info.dli_fname)
-    };
-    std::path::Path::new(std::ffi::OsStr::from_bytes(name.to_bytes()))
-        .canonicalize()
-        .ok()
-}
-
-#[cfg(not(unix))]
-fn library_file() -> Option<PathBuf> {
-    None
 }

@@ -14,6 +14,7 @@ mod directional;
 mod exports;
 mod extremes;
 mod files;
+mod float_environment;
 mod fmu_state;
 mod get_set;
 mod input_derivatives;

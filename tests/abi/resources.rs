@@ -2,8 +2,8 @@
 //! library lies.
 
 use crate::support::{
-    Creation, Fmu, Instance,
-    fmu::{scratch, unpack_into, uri},
+    Creation, Fmu, Instance, child,
+    fmu::{binary, scratch, unpack_into, uri},
 };
 use std::{path::Path, sync::OnceLock};
 
@@ -97,4 +97,26 @@ fn a_location_without_our_files_in_it_is_not_used() {
     std::fs::create_dir_all(&empty).unwrap();
     reads_below(&fmu.resources(), fmu, Some(uri(&empty)));
     reads_below(&fmu.resources(), fmu, Some(uri(&fmu.folder)));
+}
+
+/// An importer may load one FMU into the global namespace, where its functions are found in the
+/// place of those of the next.
+#[cfg(unix)]
+#[test]
+fn the_resources_are_found_beside_this_library_where_another_fmu_is_loaded_globally() {
+    use libloading::os::unix::{Library, RTLD_GLOBAL, RTLD_NOW};
+    let name = "resources::the_resources_are_found_beside_this_library_where_another_fmu_is_loaded_globally";
+    if child::run_alone(name).is_some() {
+        return;
+    }
+    let [first, second] = ["loaded-globally", "loaded-next"].map(|name| {
+        let folder = scratch().join(name);
+        unpack_into(&folder);
+        folder
+    });
+    // SAFETY: the library has no initialisation routines but those of the C runtime.
+    let global = unsafe { Library::open(Some(binary(&first)), RTLD_NOW | RTLD_GLOBAL) }.unwrap();
+    let fmu = Fmu::load(&second);
+    reads_below(&second.join("resources"), &fmu, None);
+    drop((fmu, global));
 }

@@ -1,0 +1,8 @@
+//! What the process of the importer may have changed around this library, and how the library keeps
+//! its numbers and its promises there.
+//!
+//! * `float_environment`: traps, rounding and flushing of floating-point numbers
+//! * `library_file`: where this library is
+
+pub mod float_environment;
+pub mod library_file;
