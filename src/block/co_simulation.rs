@@ -1,7 +1,7 @@
 //! Steps in time that the block integrates itself (Co-Simulation).
 
 use super::{
-    BlockError, Fresh, RotorBlock,
+    BlockError, Fresh, Note, RotorBlock,
     flight_condition::FlightCondition,
     integrate::{Inputs, Integration},
     state_vector::write_states,
@@ -49,7 +49,11 @@ impl RotorBlock {
     fn step_with_moving_inputs(&mut self, duration: f64) -> Result<(), BlockError> {
         let condition = FlightCondition::new(&self.values)?;
         let azimuth_step = self.values.reals[real::NUMERICS__AZIMUTH_STEP];
-        self.ramp.begin(&self.values, duration)?;
+        self.ramp.begin(&self.values);
+        for (input, end) in self.ramp.ends(&self.values, duration) {
+            let warning = self.limited_inputs.next(input, end);
+            self.notes.extend(warning.map(Note::Warning));
+        }
         let rotor = self.rotor()?;
         let (ramp, values) = (&mut self.ramp, &self.values);
         // A flight condition fails only for an integer that is no choice. The integers are constant

@@ -2,7 +2,7 @@
 //! Independent of the FMI version.
 //!
 //! * `variables`, `references`, `values`: the table of variables, and a value for each of them
-//! * `setting`: values into the block
+//! * `setting`, `limited_inputs`: values into the block
 //! * `setup`, `airfoils`, `flight_condition`, `ramp`: from values to a rotor and its operating
 //!   point
 //! * `computation`, `outputs`: the rotor's response, written to the outputs
@@ -22,6 +22,7 @@ mod files;
 mod flight_condition;
 mod integrate;
 mod known_rates;
+mod limited_inputs;
 mod location;
 mod model_exchange;
 mod outputs;
@@ -48,6 +49,7 @@ use beyond_stops::BeyondStopsNotice;
 use files::{FileHash, ReadFile};
 use integrate::Memory;
 use known_rates::KnownRates;
+use limited_inputs::LimitedInputs;
 use num_dual::Dual64;
 use outside_data::OutsideDataNotice;
 use ramp::Ramp;
@@ -69,15 +71,6 @@ pub enum BlockError {
         name: &'static str,
         value: f64,
         inputs: String,
-    },
-    #[error(
-        "{name} would be {value} at the end of the step by its derivative, outside its range from {min} to {max}; set another derivative or a shorter step"
-    )]
-    LeavesRange {
-        name: &'static str,
-        value: String,
-        min: String,
-        max: String,
     },
 }
 
@@ -127,6 +120,7 @@ pub struct RotorBlock {
     flow_state: i32,
     /// Sentences for the log since the last call of `take_notes`.
     notes: Vec<Note>,
+    limited_inputs: LimitedInputs,
     outside_data: OutsideDataNotice,
     beyond_stops: BeyondStopsNotice,
 }
@@ -151,6 +145,7 @@ impl RotorBlock {
             ramp: Ramp::default(),
             fresh: Fresh::Nothing,
             notes: Vec::new(),
+            limited_inputs: LimitedInputs::default(),
             outside_data: OutsideDataNotice::default(),
             beyond_stops: BeyondStopsNotice::default(),
         }

@@ -1,13 +1,10 @@
 //! Inputs that move linearly within a step, where the importer has set their derivatives.
 
 use super::{
-    BlockError, Values,
-    shown::shown,
-    variables::{INPUTS, REALS},
+    Values,
+    limited_inputs::limited,
+    variables::{INPUTS, REALS, RealRef},
 };
-
-/// Part of its change by which an input may exceed its limit at the end of a step: rounding.
-const ROUNDING: f64 = 1e-9;
 
 /// Derivatives of the inputs in time, per second, by value reference.
 pub type Slopes = [f64; INPUTS];
@@ -44,37 +41,29 @@ impl Ramp {
         self.slopes = [0.0; INPUTS];
     }
 
-    /// Begins a step of `duration` s at the values `start`. An error if an input would leave its
-    /// range.
-    pub fn begin(&mut self, start: &Values, duration: f64) -> Result<(), BlockError> {
+    /// Begins a step at the values `start`.
+    pub fn begin(&mut self, start: &Values) {
         self.moment.reals = start.reals;
         self.moment.integers = start.integers;
         self.moment.booleans = start.booleans;
-        for ((variable, slope), from) in REALS.iter().zip(self.slopes).zip(start.reals) {
-            if slope == 0.0 {
-                continue;
-            }
-            let change = slope * duration;
-            let (value, off) = (from + change, ROUNDING * change.abs());
-            let range = variable.min - off..=variable.max + off;
-            if !range.contains(&value) || !value.is_finite() {
-                return Err(BlockError::LeavesRange {
-                    name: variable.name,
-                    value: shown(value),
-                    min: shown(variable.min),
-                    max: shown(variable.max),
-                });
-            }
-        }
-        Ok(())
     }
 
-    /// The values `offset` s after the beginning of the step.
+    /// The inputs that move, and where they would be after `duration` s without the limits of their
+    /// ranges.
+    pub fn ends(&self, start: &Values, duration: f64) -> impl Iterator<Item = (RealRef, f64)> {
+        let inputs = RealRef::all().zip(self.slopes).zip(start.reals);
+        inputs
+            .filter(|((_, slope), _)| *slope != 0.0)
+            .map(move |((input, slope), from)| (input, from + slope * duration))
+    }
+
+    /// The values `offset` s after the beginning of the step. An input that reaches an end of its
+    /// range stays there.
     pub fn at(&mut self, start: &Values, offset: f64) -> &Values {
         let reals = self.moment.reals.iter_mut().zip(start.reals);
         for ((variable, slope), (value, from)) in REALS.iter().zip(self.slopes).zip(reals) {
             if slope != 0.0 {
-                *value = (from + slope * offset).clamp(variable.min, variable.max);
+                *value = limited(variable, from + slope * offset);
             }
         }
         &self.moment

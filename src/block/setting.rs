@@ -1,7 +1,7 @@
 //! Values into the block. A value that is set makes computed values out of date.
 
 use super::{
-    Fresh, RotorBlock, Stage, ValueError, Values,
+    Fresh, Note, RotorBlock, Stage, ValueError, Values,
     integrate::Memory,
     references::Names,
     state_vector::read_states,
@@ -9,7 +9,8 @@ use super::{
 };
 
 impl RotorBlock {
-    /// Sets Real variables. If one value is refused, none is set.
+    /// Sets Real variables. If one value is refused, none is set. Inputs are limited to their
+    /// range, with one warning of each.
     pub fn set_reals(
         &mut self,
         names: &[impl Names<RealRef>],
@@ -17,6 +18,10 @@ impl RotorBlock {
     ) -> Result<(), ValueError> {
         self.values.set_reals(self.stage, names, values)?;
         let mut references = names.iter().flat_map(|name| name.reference());
+        for (reference, value) in references.clone().zip(values) {
+            let warning = self.limited_inputs.next(reference, *value);
+            self.notes.extend(warning.map(Note::Warning));
+        }
         let defines_rotor = |reference: RealRef| {
             let variable = reference.variable();
             variable.causality == Causality::Parameter && !variable.tunable

@@ -1,7 +1,7 @@
 //! The values of all variables, and the rules under which they may be set.
 
 use super::{
-    plausibility::in_degrees,
+    limited_inputs::{degrees, limited},
     ramp::Slopes,
     references::{
         BooleanRef, Booleans, IntegerRef, Integers, Names, RealRef, Reals, Reference, StringRef,
@@ -119,16 +119,6 @@ fn may_set<T>(
     }
 }
 
-/// A hint for an angle that would be in its range if it had been given in degrees.
-fn degrees(variable: &Variable<f64>, value: f64) -> String {
-    let is_plausible = (variable.min..=variable.max).contains(&value.to_radians());
-    if variable.unit == "rad" && is_plausible {
-        format!(" (degrees? {})", in_degrees(value))
-    } else {
-        String::new()
-    }
-}
-
 impl Values {
     /// The value of a Real variable.
     pub fn real(&self, name: impl Names<RealRef>) -> Result<f64, ValueError> {
@@ -145,7 +135,7 @@ impl Values {
         Ok(self.booleans[name.reference()?])
     }
 
-    /// Sets all of the values or, if one is refused, none.
+    /// Sets all of the values or, if one is refused, none. Inputs are limited to their range.
     pub fn set_reals(
         &mut self,
         stage: Stage,
@@ -169,7 +159,8 @@ impl Values {
                     kept,
                 });
             }
-            if *value < variable.min || *value > variable.max {
+            let counts = limited(variable, *value);
+            if counts < variable.min || counts > variable.max {
                 let unit = |x: f64| {
                     format!("{} {}", shown(x), variable.unit)
                         .trim_end()
@@ -185,7 +176,8 @@ impl Values {
             }
         }
         for (name, value) in names.iter().zip(values) {
-            self.reals[name.reference()?] = *value;
+            let reference = name.reference()?;
+            self.reals[reference] = limited(reference.variable(), *value);
         }
         Ok(())
     }
@@ -346,16 +338,20 @@ mod tests {
         }
         for (reference, bad, part) in [
             (
-                real::COLLECTIVE,
+                real::FLAPPING__PRECONE,
                 8.0,
-                "collective = 8 rad is out of range (degrees? 8 deg = 0.1396 rad); set",
+                "flapping.precone = 8 rad is out of range (degrees? 8 deg = 0.1396 rad); set",
             ),
             (
                 real::GEOMETRY__TWIST,
                 -12.5,
                 "(degrees? -12.5 deg = -0.2182 rad)",
             ),
-            (real::COLLECTIVE, 1e300, "1e300 rad is out of range; set"),
+            (
+                real::GEOMETRY__TWIST,
+                1e300,
+                "1e300 rad is out of range; set",
+            ),
             (
                 real::FLAPPING__PRECONE,
                 45.0,

@@ -8,7 +8,7 @@ use crate::support::{
 };
 use helicopter_rotor::block::variables::{BOOLEANS, Causality, INTEGERS, REALS, STRINGS};
 use roxmltree::Document;
-use std::ptr;
+use std::{f64::consts::PI, ptr};
 
 /// All values of a running instance, on which a call is refused in between or not.
 fn values_after_two_steps(between: impl Fn(&Instance)) -> Vec<u64> {
@@ -84,13 +84,8 @@ fn no_input_or_parameter_accepts_what_is_not_finite() {
 }
 
 #[test]
-fn values_out_of_range_are_refused_with_the_range() {
+fn parameters_out_of_range_are_refused_with_the_range() {
     for (name, value, range) in [
-        ("rpm", -1.0, "from 0 to 1000000"),
-        ("rpm", -f64::MIN_POSITIVE, "from 0 to 1000000"),
-        ("rpm", 1e7, "from 0 to 1000000"),
-        ("collective", 57.3, "from -3.14"),
-        ("altitude", 1e6, "from -2000 to 20000"),
         ("air.density", 0.0, "from 1e-6 to 100"),
         ("air.temperature", -5.0, "from 50 to 2000"),
     ] {
@@ -110,6 +105,42 @@ fn values_out_of_range_are_refused_with_the_range() {
     ] {
         let parts = [name, "out of range", range, "keeps"];
         refused_at_the_start(&parts, |i| i.set_real(name, value));
+    }
+}
+
+/// A solver's finite difference, a landing and a rotor that stops pass the ends by rounding errors.
+#[test]
+fn inputs_out_of_range_count_as_the_end_of_their_range_with_one_warning_each() {
+    for (name, past, end, part) in [
+        ("rpm", -1e-8, 0.0, "-1e-8 rev/min is out of range"),
+        ("rpm", -f64::MIN_POSITIVE, 0.0, "counts as 0 rev/min"),
+        ("rpm", 1e7, 1e6, "the range from 0 to 1000000 rev/min"),
+        ("heightAboveGround", -1e-12, 0.0, "-1e-12 m is out"),
+        ("collective", 8.0, PI, "(degrees? 8 deg = 0.1396 rad)"),
+        ("altitude", 1e6, 20000.0, "from -2000 to 20000 m"),
+    ] {
+        let flown = |value: f64| {
+            let rotor = Instance::running();
+            assert_eq!(rotor.set_real(name, value), c::OK, "{name}");
+            assert_eq!(rotor.step(0.0, 0.01), c::OK, "{name}");
+            (rotor.take_log(), bits(&rotor.reals()), rotor)
+        };
+        let (log, values, rotor) = flown(past);
+        let [line] = &log[..] else {
+            panic!("{name}: one line is expected: {log:?}");
+        };
+        assert_eq!(line.category, "logStatusWarning", "{line:?}");
+        assert!(line.message.contains(part), "{part} is not in {line:?}");
+        assert_eq!(rotor.real(name), end);
+        assert_eq!(values, flown(end).1, "{name}: as at the end of the range");
+        assert_eq!(rotor.set_real(name, past), c::OK);
+        assert_eq!(rotor.take_log(), [], "said once");
+        let other = if name == "rpm" { "altitude" } else { "rpm" };
+        assert_eq!(rotor.set_real(other, -1e9), c::OK);
+        assert_eq!(rotor.take_log().len(), 1, "another input, another warning");
+        assert_eq!(rotor.reset(), c::OK);
+        assert_eq!(rotor.set_real(name, past), c::OK);
+        assert_eq!(rotor.take_log().len(), 1, "another simulation");
     }
 }
 
@@ -210,16 +241,16 @@ fn unknown_value_references_are_refused_with_the_known_ones() {
 
 #[test]
 fn of_several_values_all_or_none_are_set() {
-    let names = ["collective", "tilt", "rpm"];
+    let names = ["collective", "tilt", "air.density"];
     let references = names.map(|name| reference(&REALS, name));
     let set = |values: [f64; 3]| move |i: &Instance| i.set_reals(&references, &values);
-    refused_without_a_trace(&["rpm = -1"], set([0.3, 0.1, -1.0]));
+    refused_without_a_trace(&["air.density = -1"], set([0.3, 0.1, -1.0]));
     refused_at_the_start(&["flapping.enabled = 2"], |i| {
         i.set_booleans(&[reference(&BOOLEANS, "flapping.enabled"); 2], &[1, 2])
     });
     let instance = Instance::running();
-    assert_eq!(set([0.3, 0.1, 500.0])(&instance), c::OK);
-    assert_eq!(names.map(|name| instance.real(name)), [0.3, 0.1, 500.0]);
+    assert_eq!(set([0.3, 0.1, 1.1])(&instance), c::OK);
+    assert_eq!(names.map(|name| instance.real(name)), [0.3, 0.1, 1.1]);
 }
 
 #[test]

@@ -36,7 +36,7 @@ fn nothing_is_printed_also_when_errors_find_no_logger() {
         count((f.fmi2Reset)(component));
         count((f.fmi2EnterInitializationMode)(component));
         count((f.fmi2ExitInitializationMode)(component));
-        count((f.fmi2SetReal)(component, &5, 1, &1e300));
+        count((f.fmi2SetReal)(component, &9, 1, &1e300));
         count((f.fmi2DoStep)(component, 0.0, 0.1, 1));
         (f.fmi2FreeInstance)(component);
         assert_eq!(errors, 4);
