@@ -9,12 +9,6 @@ use super::{
     types::*,
 };
 
-/// How far the importer's time may be from ours, s: a thousandth of the step, plus the rounding of
-/// times that are added up.
-fn tolerance(time: f64, step: f64) -> f64 {
-    1e-3 * step + 1e-9 * time.abs().max(1.0)
-}
-
 /// # Safety
 /// As in the standard: `c` from fmi2Instantiate.
 #[unsafe(no_mangle)]
@@ -25,28 +19,9 @@ pub unsafe extern "C" fn fmi2DoStep(
     _noSetFMUStatePriorToCurrentPoint: fmi2Boolean,
 ) -> fmi2Status {
     let body = |instance: &mut Instance| {
-        let (point, step) = (currentCommunicationPoint, communicationStepSize);
-        let experiment = instance.experiment;
-        if step <= 0.0 || !step.is_finite() {
-            return refuse(format!(
-                "communicationStepSize = {step} s; the step must be positive and finite"
-            ));
-        }
-        let drift = (point - experiment.time).abs();
-        if drift.is_nan() || drift > tolerance(experiment.time, step) {
-            return refuse(format!(
-                "currentCommunicationPoint = {point} s, but the last step ended at {} s; continue from there",
-                experiment.time
-            ));
-        }
-        let end = point + step;
-        if let Some(stop) = experiment.stop_time
-            && end > stop + tolerance(stop, step)
-        {
-            return refuse(format!(
-                "the step would end at {end} s, past stopTime = {stop} s; shorten it or define no stopTime"
-            ));
-        }
+        let step = communicationStepSize;
+        let experiment = &instance.experiment;
+        let end = experiment.end_of_step(currentCommunicationPoint, step)?;
         instance.block.step(step)?;
         instance.experiment.time = end;
         Ok(())

@@ -4,8 +4,9 @@
 
 use super::{
     arguments::text,
+    communication_time::Experiment,
     handle,
-    instance::{Experiment, Instance, Message},
+    instance::{Instance, Message},
     legality::{INSTANTIATED, Interface},
     logger::{Category, Logger, printable},
     resource_location::resources,

@@ -7,8 +7,9 @@
 
 use super::{
     arguments::{elements, fill, room, room_for_one},
+    communication_time::Experiment,
     handle::{self, Marked},
-    instance::{Experiment, Instance, Message, Outcome, call, refuse},
+    instance::{Instance, Message, Outcome, call, refuse},
     legality::{Function, Interface, States},
     types::*,
 };

@@ -1,6 +1,7 @@
 //! One instance of the FMU, and the frame in which every function of the interface runs.
 
 use super::{
+    communication_time::Experiment,
     handle::{self, Marked},
     legality::{EVENT_MODE, Function, INITIALIZATION_MODE, Interface, STEP_COMPLETE, States},
     logger::{Category, Logger},
@@ -10,7 +11,7 @@ use crate::block::{
     BlockError, Note, PerVariable, RotorBlock,
     variables::{STRINGS, StringRef},
 };
-use serde::{Deserialize, Serialize};
+use crate::host::float_environment::in_default_environment;
 use std::{
     any::Any,
     ffi::CString,
@@ -29,13 +30,6 @@ pub struct Instance {
 
 impl Marked for Instance {
     const MARK: u64 = 0x726f_746f_7220_4f4b;
-}
-
-/// Time as the importer keeps it, s.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-pub struct Experiment {
-    pub time: f64,
-    pub stop_time: Option<f64>,
 }
 
 /// What the importer is told when a function ends.
@@ -79,7 +73,8 @@ impl Instance {
 }
 
 /// Runs the body of a function on its instance. Refuses a call without an instance or in the wrong
-/// state, catches panics, and logs the outcome.
+/// state, catches panics, and logs the outcome. The body runs in the default floating-point
+/// environment, the logger in the importer's.
 ///
 /// A warning of the block is logged with fmi2Warning, but the call returns fmi2OK: many importers
 /// end the simulation at any other answer.
@@ -97,7 +92,7 @@ pub unsafe fn call(
         return fmi2Status::fmi2Error;
     };
     let instance = instance.as_ptr();
-    let outcome = catch_unwind(AssertUnwindSafe(|| {
+    let run = || {
         // SAFETY: by the contract above the only reference to a living instance. It
         // ends before the logger runs, which may call back into this library.
         let instance = unsafe { &mut *instance };
@@ -105,12 +100,13 @@ pub unsafe fn call(
             .check(instance.interface, instance.state)
             .map_err(Message::Error)?;
         body(instance)
-    }))
-    .unwrap_or_else(|panic| {
-        // SAFETY: as above.
-        unsafe { (*instance).block.forget_results() };
-        Err(Message::Error(internal_error(&*panic)))
-    });
+    };
+    let outcome =
+        catch_unwind(AssertUnwindSafe(|| in_default_environment(run))).unwrap_or_else(|panic| {
+            // SAFETY: as above.
+            unsafe { (*instance).block.forget_results() };
+            Err(Message::Error(internal_error(&*panic)))
+        });
 
     let (status, mut lines) = match outcome {
         Ok(()) => (fmi2Status::fmi2OK, Vec::new()),

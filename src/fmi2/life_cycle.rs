@@ -4,7 +4,8 @@
 #![allow(non_snake_case)]
 
 use super::{
-    instance::{Experiment, Instance, call, refuse},
+    communication_time::Experiment,
+    instance::{Instance, call, refuse},
     legality::{Function, INITIALIZATION_MODE, INSTANTIATED, TERMINATED},
     types::*,
 };
@@ -35,6 +36,7 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
             ));
         }
         instance.experiment = Experiment {
+            start_time: startTime,
             time: startTime,
             stop_time,
         };

@@ -6,6 +6,7 @@
 //! * `fmu_state.rs`, `serialized_state.rs`: the complete state, and its form as bytes
 //! * `directional.rs`: derivatives along a direction
 //! * `co_simulation.rs`, `model_exchange.rs`: the functions of one interface
+//! * `communication_time.rs`: the importer's time, and which steps it may take
 //! * `logger.rs`: messages to the importer
 //! * `legality.rs`: which function may be called in which state
 //! * `instance.rs`: one instance, and the frame in which every function runs
@@ -15,6 +16,7 @@
 
 mod arguments;
 pub mod co_simulation;
+mod communication_time;
 pub mod creation;
 pub mod directional;
 pub mod fmu_state;

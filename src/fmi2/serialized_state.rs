@@ -20,7 +20,7 @@ use crate::block::{Contradiction, Stage, variables::GUID};
 use thiserror::Error;
 
 const MAGIC: [u8; 8] = *b"HelRotor";
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 const HEAD: usize = MAGIC.len() + 4 + GUID.len() + 8;
 const CHECKSUM: usize = 4;
 
@@ -93,7 +93,8 @@ impl FmuState {
     /// Refuses a state that no instance can be in.
     fn check(&self) -> Result<(), DecodeError> {
         let experiment = &self.experiment;
-        if !experiment.time.is_finite() || experiment.stop_time.is_some_and(f64::is_nan) {
+        let times = [experiment.start_time, experiment.time];
+        if times.iter().any(|t| !t.is_finite()) || experiment.stop_time.is_some_and(f64::is_nan) {
             return Err(DecodeError::Time);
         }
         self.block.check()?;

@@ -130,7 +130,7 @@ const GUID_AT: usize = 12;
 const LENGTH_AT: usize = GUID_AT + GUID.len();
 const CONTENT_AT: usize = LENGTH_AT + 8;
 /// After the interface, the state of the call sequence and the time.
-const STOP_AT: usize = CONTENT_AT + 2 + 8;
+const STOP_AT: usize = CONTENT_AT + 2 + 8 + 8;
 /// After no stop time, and the number of Real variables in two bytes.
 const VALUES_AT: usize = STOP_AT + 1 + 2;
 
@@ -184,7 +184,7 @@ fn bytes_that_are_no_state_of_this_fmu_are_refused_with_the_reason() {
     ] {
         refused(foreign, &["not a serialized state of this FMU"]);
     }
-    refused(&changed(8, |b| b + 1), &["format 4", "reads 3"]);
+    refused(&changed(8, |b| b + 1), &["format 5", "reads 4"]);
     refused(&changed(GUID_AT + 5, |b| b ^ 1), &["GUID", GUID]);
     refused(&good[..good.len() - 1], &["cut short"]);
     refused(&good[..CONTENT_AT], &["cut short"]);
@@ -210,6 +210,7 @@ fn bytes_that_are_no_state_of_this_fmu_are_refused_with_the_reason() {
     }
     let nan = f64::NAN.to_le_bytes();
     refused(&hostile(CONTENT_AT + 2, &nan), &["time"]);
+    refused(&hostile(CONTENT_AT + 10, &nan), &["time"]);
     // Neither without nor with a stop time.
     refused(&hostile(STOP_AT, &[2]), &[unwritten]);
     refused(
