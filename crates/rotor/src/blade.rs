@@ -7,6 +7,7 @@ use super::{
     geometry::{Elements, Geometry},
     scalar::Scalar,
     tip_loss::TipLoss,
+    work::Work,
 };
 
 /// The blade of a rotor in air, at a collective.
@@ -28,6 +29,8 @@ pub struct Blade<'a, S = f64> {
     pub collective: S,
     /// Fraction of each element that carries lift, 0 to 1.
     pub lifting_shares: &'a [S],
+    /// Counts the computations of sections.
+    pub work: &'a Work,
 }
 
 impl<'a, S: Scalar> Blade<'a, S> {
@@ -65,6 +68,7 @@ impl<'a, S: Scalar> Blade<'a, S> {
                 mach: S::one() / air.speed_of_sound,
             },
             density: air.density,
+            work: self.work,
         }
     }
 }

@@ -5,6 +5,7 @@ use super::{
     disc::SectionFlow,
     scalar::{C, Scalar},
     tip_loss::{Span, TipLoss},
+    work::Work,
 };
 use core::f64::consts::PI;
 
@@ -35,6 +36,8 @@ pub struct Element<'a, S = f64> {
     pub unit_flow: Similarity<S>,
     /// Density of the air, kg/m3.
     pub density: S,
+    /// Counts the computations of sections.
+    pub work: &'a Work,
 }
 
 /// Part of a velocity over which a corner beside it is rounded.
@@ -179,6 +182,7 @@ impl<S: Scalar> Element<'_, S> {
     /// (83), (84) without small angles. The flow along the blade has no effect on a section
     /// (independence principle), and here none on its drag either.
     pub fn load(&self, pitch: S, in_plane: S, through: S) -> SectionLoad<S> {
+        self.work.count(1);
         let speed = in_plane.hypot(through);
         if speed.value() == 0.0 {
             return SectionLoad {

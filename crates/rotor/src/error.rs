@@ -25,7 +25,13 @@ pub enum SolveError {
         "no state was found in which inflow and flapping repeat themselves; set initialization to rest"
     )]
     NoSteadyState,
-    /// A step in time, s.
-    #[error("a step of {0} s is too long for the states of inflow and flapping; shorten it")]
-    StepTooLong(f64),
+    /// More work than the workspace allows, in computations of a section's loads.
+    #[error("it takes more than {0} computations of blade sections")]
+    TooMuchWork(u64),
+    /// A step in time.
+    #[error("the rates of inflow and flapping are not finite")]
+    RatesNotFinite,
+    /// A step in time.
+    #[error("the blades flap faster than steps can follow")]
+    FlappingTooFast,
 }

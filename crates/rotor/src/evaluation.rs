@@ -11,6 +11,7 @@ use super::{
     rotor::Rotor,
     scalar::Scalar,
     state::State,
+    work::Work,
 };
 use core::f64::consts::PI;
 use nalgebra::Vector3;
@@ -153,8 +154,8 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
     }
 
     /// The disc as the inflow models see it, with the lift of the elements ending as
-    /// `lifting_shares` say.
-    pub(crate) fn disc<'b>(&'b self, lifting_shares: &'b [S]) -> Disc<'b, S> {
+    /// `lifting_shares` say, and with sections counted by `work`.
+    pub(crate) fn disc<'b>(&'b self, lifting_shares: &'b [S], work: &'b Work) -> Disc<'b, S> {
         let rotor = self.rotor;
         let models = rotor.models();
         Disc {
@@ -167,6 +168,7 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
                 air: &self.point.air,
                 collective: self.point.collective,
                 lifting_shares,
+                work,
             },
             flow: &self.flow,
             positions: &self.positions,

@@ -36,7 +36,7 @@
 //!
 //! The modules, each of which imports only from those before it:
 //!
-//! * numbers: `scalar`, `root`, `newton`, `error`, `text_file`
+//! * numbers: `scalar`, `root`, `newton`, `phi`, `error`, `work`, `text_file`
 //! * air and sections: `air`, `compressibility`, `airfoil`
 //! * the blade: `geometry`, `tip_loss`
 //! * the disc: `disc`, `induced`
@@ -45,7 +45,7 @@
 //! * the rotor: `state`, `operating_point`, `flapping`, `models`, `rotor`, `workspace`,
 //!   `data_range`
 //! * what it computes: `evaluation`, `loads`, `lift_end`, `tip_path`, `hub_loads`, `rates`,
-//!   `response`, `step`, `start`
+//!   `response`, `step`, `stiff_step`, `start`
 
 #![warn(missing_docs)]
 // A new model makes the compiler list what it has to define.
@@ -76,14 +76,17 @@ mod loads;
 mod models;
 mod newton;
 mod operating_point;
+mod phi;
 mod rates;
 mod response;
 mod rotor;
 mod start;
 mod step;
+mod stiff_step;
 mod sweep;
 mod text_file;
 mod tip_path;
+mod work;
 mod workspace;
 
 pub use blade_loads::{BladeLoads, ElementLoads};
@@ -98,5 +101,7 @@ pub use response::Response;
 pub use rotor::Rotor;
 pub use start::{Start, Started};
 pub use state::State;
+pub use step::Division;
 pub use tip_path::TipPath;
+pub use work::Work;
 pub use workspace::Workspace;

@@ -28,16 +28,17 @@ pub(crate) fn disc_loads<S: Scalar>(
     let blades = f64::from(rotor.geometry().blades);
     let Workspace {
         lifting_shares,
+        work,
         elements,
     } = workspace;
     if tip_loss.end_at_thrust(blades, S::zero()).is_none() {
-        return DiscLoads::new(evaluation, lifting_shares, elements);
+        return DiscLoads::new(evaluation, lifting_shares, work, elements);
     }
     let mut loads_at = |coefficient: S| {
         let end = tip_loss.end_at_thrust(blades, coefficient);
         let end = end.unwrap_or(S::one());
         end_lift_at(end, rotor.geometry(), rotor.elements(), lifting_shares);
-        DiscLoads::new(evaluation, lifting_shares, elements)
+        DiscLoads::new(evaluation, lifting_shares, work, elements)
     };
     // More thrust ends the lift further inboard, which reduces the thrust: there is one solution.
     // The published coefficient is over the tip speed alone. Here the airspeed is added to it, so

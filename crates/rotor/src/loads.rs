@@ -9,6 +9,7 @@ use super::{
     inflow::{InflowStates, MAX_STATES},
     scalar::Scalar,
     sweep::Sweep,
+    work::Work,
 };
 use nalgebra::Vector3;
 
@@ -35,10 +36,12 @@ pub(crate) struct DiscLoads<S = f64> {
 
 impl<S: Scalar> DiscLoads<S> {
     /// Computes the loads and writes those of each element to `elements`. `lifting_shares` are the
-    /// fractions of the elements that carry lift.
+    /// fractions of the elements that carry lift. Fails where a momentum equation has no solution,
+    /// or if no work is left.
     pub(crate) fn new(
         evaluation: &Evaluation<S>,
         lifting_shares: &[S],
+        work: &Work,
         elements: &mut [ElementLoads<S>],
     ) -> Result<Self, SolveError> {
         let mut sums = Self {
@@ -51,7 +54,8 @@ impl<S: Scalar> DiscLoads<S> {
             stalled: 0.0,
             stalled_radius: 0.0,
         };
-        let disc = evaluation.disc(lifting_shares);
+        let disc = evaluation.disc(lifting_shares, work);
+        work.check((disc.positions.len() * elements.len()) as u64)?;
         let inflow = &evaluation.rotor.models().inflow;
         let induction = inflow.induction(&disc, &evaluation.inflow_states)?;
         for (i, load) in elements.iter_mut().enumerate() {

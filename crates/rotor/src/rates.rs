@@ -45,10 +45,17 @@ pub(crate) fn of<S: Scalar>(evaluation: &Evaluation<S>, loads: &DiscLoads<S>) ->
     rates
 }
 
-/// An estimate of the fastest rate of the states, 1/s: that of the inflow, of flapping (which the
-/// lift damps and, with delta3, stiffens), of stops that a blade may meet within a time, s, and of
-/// the rotor speed (which the loads damp).
-pub(crate) fn fastest(evaluation: &Evaluation, time: f64) -> f64 {
+/// An estimate of the fastest rates of the states, 1/s.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Fastest {
+    /// Of flapping between the stops, which the lift damps and, with delta3, stiffens.
+    pub(crate) flapping: f64,
+    /// Of the inflow, of stops that a blade may meet, and of the rotor speed, which the loads damp.
+    pub(crate) others: f64,
+}
+
+/// The fastest rates of the states within a time, s.
+pub(crate) fn fastest(evaluation: &Evaluation, time: f64) -> Fastest {
     let Evaluation {
         rotor, point, flow, ..
     } = evaluation;
@@ -66,14 +73,14 @@ pub(crate) fn fastest(evaluation: &Evaluation, time: f64) -> f64 {
         evaluation.is_individual,
     );
     let speed = tip_speed + flow.edgewise + flow.climb.abs();
-    let flapping = evaluation.freedom.map_or(0.0, |freedom| {
+    let (flapping, stops) = evaluation.freedom.map_or((0.0, 0.0), |freedom| {
         let hinge = &rotor.models().hinge;
         let flaps = &evaluation.state.flaps[..rotor.flapping_blades()];
         let free = freedom.fastest_rate(hinge, point, flow, chord, speed);
         if freedom.may_meet_stop(flaps, time) {
-            free + hinge.stop_rate(flow.rotation)
+            (free, hinge.stop_rate(flow.rotation))
         } else {
-            free
+            (free, 0.0)
         }
     });
     let turning = match point.drive {
@@ -83,5 +90,8 @@ pub(crate) fn fastest(evaluation: &Evaluation, time: f64) -> f64 {
                 / (3.0 * inertia)
         }
     };
-    inflow + flapping + turning
+    Fastest {
+        flapping,
+        others: inflow + stops + turning,
+    }
 }

@@ -40,6 +40,23 @@ impl<S: Scalar> Default for State<S> {
 }
 
 impl State {
+    /// The state a part of the way (0 to 1) to another one `duration` s later: the cubic with these
+    /// states and the rates `first` and `last` at its ends (Hermite). Its error is of the order of
+    /// that of a step.
+    pub fn between(
+        &self,
+        first: &Self,
+        (other, last): (&Self, &Self),
+        part: f64,
+        duration: f64,
+    ) -> Self {
+        let change = other.plus(-1.0, self);
+        let rest = 1.0 - part;
+        self.plus(part * part * (3.0 - 2.0 * part), &change)
+            .plus(duration * part * rest * rest, first)
+            .plus(-duration * part * part * rest, last)
+    }
+
     /// Largest difference from another state, in m/s, rad or rad/s; the azimuth does not count.
     pub fn largest_change(&self, other: &Self) -> f64 {
         let inflow = self.inflow.iter().zip(&other.inflow);

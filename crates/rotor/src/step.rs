@@ -9,6 +9,44 @@ use super::{
 /// undamped motion and 2.5 for damped.
 const MAX_PRODUCT: f64 = 1.0;
 
+/// Number of plain steps for a stiff one, which costs up to twice as much, from which blades count
+/// as stiff.
+const STIFF: f64 = 8.0;
+
+/// Into how many equal steps, at least 1, a time must be divided for a stable integration; not
+/// finite where the rates of the states are not.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Division {
+    /// With `step_from`.
+    pub plain: f64,
+    /// With `stiff_step_from`.
+    pub stiff: f64,
+}
+
+impl Division {
+    /// Whether to take the steps of `stiff_step_from`.
+    pub fn is_stiff(&self) -> bool {
+        self.plain >= STIFF * self.stiff
+    }
+
+    /// Number of steps with the method to take.
+    pub fn count(&self) -> f64 {
+        if self.is_stiff() {
+            self.stiff
+        } else {
+            self.plain
+        }
+    }
+
+    /// The division that is stable where either is.
+    pub fn finer(&self, other: &Self) -> Self {
+        Self {
+            plain: self.plain.max(other.plain),
+            stiff: self.stiff.max(other.stiff),
+        }
+    }
+}
+
 impl Rotor {
     /// The state one step of `duration` s later, by Heun's method of order 3 (Heun 1900, Z. Math.
     /// Phys. 45, p. 23). `point_at`: the operating point at a time (s) after the beginning of the
@@ -42,10 +80,26 @@ impl Rotor {
             .plus(duration * 0.75, &third))
     }
 
-    /// Number of equal steps, at least 1, into which `duration` s must be divided for a stable
-    /// integration; not finite where the states' rates are not.
-    pub fn stable_steps(&self, point: &OperatingPoint, state: &State, duration: f64) -> f64 {
+    /// How `duration` s must be divided.
+    pub fn division(&self, point: &OperatingPoint, state: &State, duration: f64) -> Division {
         let fastest = rates::fastest(&self.evaluate(point, state), duration);
-        libm::ceil((duration * fastest / MAX_PRODUCT).max(1.0))
+        let count = |rate: f64| libm::ceil((duration * rate / MAX_PRODUCT).max(1.0));
+        Division {
+            plain: count(fastest.flapping + fastest.others),
+            stiff: count(fastest.others),
+        }
+    }
+
+    /// Number of equal steps of `step_from`, at least 1, into which `duration` s must be divided for
+    /// a stable integration; not finite where the states' rates are not.
+    pub fn stable_steps(&self, point: &OperatingPoint, state: &State, duration: f64) -> f64 {
+        self.division(point, state, duration).plain
+    }
+
+    /// Work of a step, at least, in computations of a section's loads.
+    pub fn work_of_step(&self, point: &OperatingPoint, state: &State, is_stiff: bool) -> f64 {
+        let stages = if is_stiff { 5.0 } else { 3.0 };
+        let positions = self.evaluate(point, state).positions.len();
+        stages * (positions * self.elements().len()) as f64
     }
 }

@@ -1,15 +1,17 @@
 //! The memory in which a rotor computes.
 
-use super::{blade_loads::ElementLoads, rotor::Rotor, scalar::Scalar};
+use super::{blade_loads::ElementLoads, rotor::Rotor, scalar::Scalar, work::Work};
 
 /// Scratch memory for computations with one rotor at a time, in plain or dual numbers. It carries
-/// nothing from one computation to the next.
+/// nothing from one computation to the next, except what they may cost in all.
 #[derive(Debug, Clone)]
 pub struct Workspace<S = f64> {
     /// Fraction of each element that carries lift.
     pub(crate) lifting_shares: Vec<S>,
     /// Loads of each element.
     pub(crate) elements: Vec<ElementLoads<S>>,
+    /// What computations in this memory may cost; without a bound by default.
+    pub work: Work,
 }
 
 impl<S: Scalar> Default for Workspace<S> {
@@ -18,6 +20,7 @@ impl<S: Scalar> Default for Workspace<S> {
         Self {
             lifting_shares: Vec::new(),
             elements: Vec::new(),
+            work: Work::default(),
         }
     }
 }

@@ -141,6 +141,7 @@ fn axial_residual<S: Scalar>(
     undisturbed: Undisturbed<S>,
     inflow_angle: S,
 ) -> S {
+    element.work.count(1);
     let sin_inflow = inflow_angle.sin();
     let induced_angle = inflow_angle - undisturbed.angle;
     let across = induced_angle.cos();
@@ -185,6 +186,8 @@ fn mean_residual<S: Scalar>(
         sum += element.lift_coefficient(alpha, local_speed * speed) * projected;
     }
     let lift = sum / positions.len() as f64;
+    let momentum_work = momentum.descent.work(flow.climb, far.axial);
+    element.work.count(positions.len() as u64 + momentum_work);
     let resultant = momentum.descent.speed(flow.edgewise, flow.climb, far.axial) / speed;
     let induced_part = (inflow_angle - undisturbed.angle).sin();
     let factor = element.tip_loss_factor(wake_sine(flow, momentum, undisturbed, inflow_angle));
@@ -406,6 +409,7 @@ pub(super) mod tests {
                 mach: S::constant(1.0 / 340.0),
             },
             density: S::constant(1.2),
+            work: Box::leak(Box::default()),
         }
     }
 

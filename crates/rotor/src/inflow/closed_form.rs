@@ -74,6 +74,7 @@ pub(super) fn load<S: Scalar>(
 ) -> Result<S, RootError> {
     let rotation = disc.flow.rotation * element.radius;
     let solution = solve(element, rotation, disc.flow.climb)?;
+    element.work.count(1);
     sweep.take(&solution.load, solution.induced);
     Ok(solution.mean_induced)
 }

@@ -98,7 +98,11 @@ pub fn solve<S: Scalar>(
         let lift = element.lift_coefficient(alpha, speed);
         strength * speed * lift * section.flap_cos / factor(v, through, speed)
     };
-    let mass_flow = |v: S| momentum.descent.speed(flow.edgewise, section.through, v);
+    let mass_flow = |v: S| {
+        let momentum_work = momentum.descent.work(section.through, v);
+        element.work.count(1 + momentum_work);
+        momentum.descent.speed(flow.edgewise, section.through, v)
+    };
     let v = uniform::mean_velocity(mass_flow, section.through, scale, thrust)?;
     let (axial, through, speed) = flow_with(v);
     let share = if speed.value() == 0.0 {

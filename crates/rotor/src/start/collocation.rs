@@ -9,7 +9,7 @@
 use super::unknowns::Unknowns;
 use crate::{
     error::SolveError, operating_point::OperatingPoint, rotor::Rotor, scalar::Scalar, state::State,
-    workspace::Workspace,
+    work::Work, workspace::Workspace,
 };
 use core::f64::consts::PI;
 use nalgebra::{DMatrix, DVector};
@@ -32,6 +32,9 @@ const TOLERANCE: f64 = 1e-9;
 /// Residual up to which a motion counts as found although corners of the section data keep the
 /// steps from becoming small; in units of the centrifugal acceleration of 1 rad.
 const SMALL_RESIDUAL: f64 = 1e-6;
+
+/// Computations in plain numbers that cost as much as one in dual numbers.
+const DUAL_WORK: u64 = 2;
 
 /// The equations at the azimuths of one blade passage.
 pub(super) struct Collocation<'a> {
@@ -238,15 +241,21 @@ impl<'a> Collocation<'a> {
 
     /// The motion that repeats itself, searched from a constant one, and whether it was found; if
     /// not, the closest that was met. None where the equations cannot be computed.
-    fn solve(&self, point: &OperatingPoint, guess: &State) -> Option<(DVector<f64>, bool)> {
-        let mut plain = Workspace::new(self.rotor);
+    fn solve(
+        &self,
+        point: &OperatingPoint,
+        guess: &State,
+        plain: &mut Workspace,
+    ) -> Option<(DVector<f64>, bool)> {
         let mut dual = Workspace::new(self.rotor);
         let dual_point = point.map(Dual64::from_re);
         let mut values = self.constant(guess);
-        let mut residual = self.residual(point, &values, &mut plain).ok()?;
+        let mut residual = self.residual(point, &values, plain).ok()?;
         let mut slow_steps = 0;
         for _ in 0..MAX_STEPS {
+            dual.work = Work::up_to(plain.work.left() / DUAL_WORK);
             let slopes = self.slopes(&dual_point, &values, &mut dual).ok()?;
+            plain.work.count(DUAL_WORK * dual.work.done());
             let step = slopes.lu().solve(&-&residual);
             let Some(step) = step.filter(|step| step.norm().is_finite()) else {
                 return Some((values, false));
@@ -257,7 +266,7 @@ impl<'a> Collocation<'a> {
             for _ in 0..=MAX_HALVINGS {
                 let next = &values + &step * part;
                 // Too long a step may lead to where the rates cannot be computed.
-                if let Ok(found) = self.residual(point, &next, &mut plain)
+                if let Ok(found) = self.residual(point, &next, plain)
                     && found.norm() < before
                 {
                     closer = Some((next, found));
@@ -283,8 +292,13 @@ impl<'a> Collocation<'a> {
 
     /// The state with blade 1 at the tail in the motion that repeats itself, searched from a state,
     /// and whether it was found; if not, a state close to it where there is one.
-    pub(super) fn find(&self, point: &OperatingPoint, guess: &State) -> (State, bool) {
-        match self.solve(point, guess) {
+    pub(super) fn find(
+        &self,
+        point: &OperatingPoint,
+        guess: &State,
+        workspace: &mut Workspace,
+    ) -> (State, bool) {
+        match self.solve(point, guess, workspace) {
             Some((values, is_found)) => (self.first_state(&values), is_found),
             None => (*guess, false),
         }
@@ -296,21 +310,23 @@ impl<'a> Collocation<'a> {
         &self,
         (plain, dual): (&OperatingPoint, &OperatingPoint<Dual64>),
         found: &State,
+        workspace: &mut Workspace<Dual64>,
     ) -> Option<State> {
-        let (values, is_found) = self.solve(plain, found)?;
+        let mut plain_workspace = Workspace::new(self.rotor);
+        plain_workspace.work = Work::up_to(workspace.work.left());
+        let (values, is_found) = self.solve(plain, found, &mut plain_workspace)?;
         if !is_found {
             return None;
         }
-        let mut workspace = Workspace::new(self.rotor);
         let mut by_point = DVector::zeros(values.len());
         for node in 0..self.nodes {
             let there = self.at(&values, node).map(Dual64::from_re);
-            let rates = self.rates(dual, &there, node, &mut workspace).ok()?;
+            let rates = self.rates(dual, &there, node, workspace).ok()?;
             for (row, rate) in self.rows(node).into_iter().zip(rates.iter()) {
                 by_point[row] = rate.eps;
             }
         }
-        let slopes = self.slopes(&plain.map(Dual64::from_re), &values, &mut workspace);
+        let slopes = self.slopes(&plain.map(Dual64::from_re), &values, workspace);
         let moved = slopes.ok()?.lu().solve(&by_point)?;
         Some(self.first_state(&moved))
     }

@@ -54,7 +54,8 @@ const TOLERANCE: f64 = 1e-10;
 
 impl Rotor {
     /// The state at the start. `azimuth_step` (rad) is the maximum step. The work of the search is
-    /// bounded. Fails where a momentum equation has no solution.
+    /// bounded, also by what the workspace allows: then nothing is found. Fails where a momentum
+    /// equation has no solution.
     pub fn start(
         &self,
         point: &OperatingPoint,
@@ -91,7 +92,7 @@ impl Rotor {
         if self.reaches_stops(&balanced, 0.0) {
             state = balanced;
         }
-        let (motion, is_motion) = collocation.find(point, &state);
+        let (motion, is_motion) = collocation.find(point, &state, workspace);
         // Exactly periodic with the steps of the simulation, where that is not too much work.
         let mut exact = periodic::find(self, point, motion, is_motion, azimuth_step, workspace);
         if !is_motion && exact.is_none() && self.reaches_stops(&motion, -NEAR_STOP) {
@@ -156,7 +157,7 @@ impl Rotor {
             && steps.is_none()
             && let Some(collocation) = Collocation::new(self, plain)
         {
-            let moves = collocation.derivative((plain, dual), found);
+            let moves = collocation.derivative((plain, dual), found, workspace);
             add_changes(&mut state, &moves.ok_or(SolveError::NoSteadyState)?);
             return Ok(state);
         }

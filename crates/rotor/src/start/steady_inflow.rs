@@ -44,7 +44,7 @@ pub(super) fn find(
     // The search starts from the static inflow model: the slopes of the field, which are 0 in axial
     // symmetry, then have their order of magnitude in edgewise flow.
     workspace.prepare(rotor);
-    let disc = evaluation.disc(&workspace.lifting_shares);
+    let disc = evaluation.disc(&workspace.lifting_shares, &workspace.work);
     let field = disc.momentum_field(Skew::PittPeters)?;
     let guess = State {
         inflow: inflow.first_guess(&field.out_of_wind(&evaluation.axes)),

@@ -109,6 +109,17 @@ impl<S: Scalar> DescentLaw<S> {
         }
     }
 
+    /// How many computations of a section's loads cost as much as one of V', at the flows that
+    /// [`DescentLaw::speed`] takes: measured, rounded up.
+    pub(crate) fn work(&self, climb: S, induced: S) -> u64 {
+        match self.model {
+            Descent::Momentum | Descent::Measured => 0,
+            // V' is the root of a piecewise cubic with powers.
+            Descent::Johnson if (climb * induced).value() < 0.0 => 40,
+            Descent::Johnson => 0,
+        }
+    }
+
     /// V' and its slope, at the flows that [`DescentLaw::speed`] takes.
     pub fn mass_flow(&self, edgewise: S, climb: S, induced: S) -> MassFlow<S> {
         let speed = self.speed(edgewise, climb, induced);
