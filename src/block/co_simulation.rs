@@ -21,6 +21,7 @@ impl RotorBlock {
         let azimuth_step = self.values.reals[real::NUMERICS__AZIMUTH_STEP];
         let (memory, is_current) = (self.memory, self.fresh == Fresh::All);
         let rotor = self.rotor()?;
+        self.workspace.work = self.budget();
         let point = &condition.point;
         let inputs = Inputs::<fn(f64) -> OperatingPoint>::Constant(*point);
         let advanced = Integration {
@@ -55,6 +56,7 @@ impl RotorBlock {
             self.notes.extend(warning.map(Note::Warning));
         }
         let rotor = self.rotor()?;
+        self.workspace.work = self.budget();
         let (ramp, values) = (&mut self.ramp, &self.values);
         // A flight condition fails only for an integer that is no choice. The integers are constant
         // during the step, and `condition` has accepted them.

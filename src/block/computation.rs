@@ -15,7 +15,7 @@ use super::{
     values::Values,
     variables::{Causality, FlowState, REALS, integer, real},
 };
-use rotor::{Rotor, SolveError};
+use rotor::{Rotor, SolveError, Work};
 use std::sync::Arc;
 
 /// The warning where the search for a steady start fails.
@@ -54,6 +54,7 @@ impl RotorBlock {
                 let start = setup::start(values)?;
                 let azimuth_step = values.reals[real::NUMERICS__AZIMUTH_STEP];
                 let rotor = self.rotor()?;
+                self.workspace.work = self.budget();
                 let workspace = &mut self.workspace;
                 let started = rotor.start(&condition.point, start, azimuth_step, workspace);
                 let started = started.map_err(|e| self.unsolved(e))?;
@@ -61,6 +62,7 @@ impl RotorBlock {
                 Memory::starting(started.state)
             }
         };
+        self.workspace.work = self.budget();
         self.publish(&condition, memory)
     }
 
@@ -114,7 +116,7 @@ impl RotorBlock {
         let state = &memory.state;
         let response = rotor
             .respond(&condition.point, state, &mut self.workspace)
-            .map_err(|error| BlockError::Unsolved(error, inputs(&self.values)))?;
+            .map_err(|error| unsolved(error, &self.values))?;
         write_response(&mut reals, &rotor, condition, state, &response);
         check_finite(&self.values, &reals)?;
         self.values.reals = reals;
@@ -141,7 +143,21 @@ impl RotorBlock {
 
     /// The block's error for one of the rotor, with the present inputs.
     pub(super) fn unsolved(&self, error: SolveError) -> BlockError {
-        BlockError::Unsolved(error, inputs(&self.values))
+        unsolved(error, &self.values)
+    }
+
+    /// The work that a step or a start may take, as `numerics.budget` says.
+    pub(super) fn budget(&self) -> Work {
+        let budget = self.values.integers[integer::NUMERICS__BUDGET];
+        Work::up_to(budget.max(0) as u64)
+    }
+}
+
+/// The block's error for one of the rotor.
+pub(super) fn unsolved(error: SolveError, values: &Values) -> BlockError {
+    match error {
+        SolveError::TooMuchWork(budget) => BlockError::TooMuchWork(budget),
+        error => BlockError::Unsolved(error, inputs(values)),
     }
 }
 

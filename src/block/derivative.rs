@@ -2,7 +2,7 @@
 
 use super::{
     BlockError, RotorBlock, Stage,
-    computation::inputs,
+    computation::unsolved,
     flight_condition::FlightCondition,
     outputs::write_response,
     references::{Names, Reals},
@@ -120,10 +120,11 @@ impl RotorBlock {
         let condition =
             FlightCondition::with_reals(&self.values, reals).map_err(BlockError::from)?;
         let rotor = self.rotor()?;
+        self.dual_workspace.work = self.budget();
         let state = self.state_along(&rotor, &condition.point, reals)?;
         let response = rotor
             .respond(&condition.point, &state, &mut self.dual_workspace)
-            .map_err(|error| BlockError::Unsolved(error, inputs(&self.values)))?;
+            .map_err(|error| unsolved(error, &self.values))?;
         write_response(reals, &rotor, &condition, &state, &response);
         Ok(())
     }

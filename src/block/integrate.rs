@@ -1,14 +1,19 @@
 //! Time integration of the rotor's states.
 //!
 //! The steps of the rotor lie on a grid of azimuth. The grid begins at the start of the simulation,
-//! and again where the inputs change. A communication point between two grid points is reached
-//! exactly, by a shorter step from the grid point before it. While the inputs stay constant, the
-//! next step continues from that grid point and not from the communication point. So constant
-//! inputs give the same result, up to the rounding of times, for every communication step. Inputs
-//! that move within a communication step begin a grid of their own at its beginning.
+//! and again where the inputs change. Each cell of it is divided into equal steps that are short
+//! enough for the states.
+//!
+//! While the inputs stay constant, a communication step goes on from the last point that the steps
+//! reached, and a communication point between two of these is read off the cubic between them, for
+//! which the step ahead is computed and kept. So no step is computed twice, however short the
+//! communication steps are, and the results do not depend on them. The first communication step
+//! after a change of the inputs ends with a shorter step instead, because the inputs may change
+//! again at once. Inputs that move within a communication step begin a grid of their own at its
+//! beginning.
 
 use super::known_rates::KnownRates;
-use rotor::{Drive, OperatingPoint, Rotor, SolveError, State, Workspace};
+use rotor::{Division, Drive, OperatingPoint, Rotor, SolveError, State, Workspace};
 use std::sync::Arc;
 
 /// The states, and the position on the grid.
@@ -20,15 +25,29 @@ pub struct Memory {
     pub since: Option<Since>,
 }
 
-/// The last grid point: where the grid begins, or the end of its last full step.
+/// The last point that the steps reached.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Since {
     /// The operating point of the whole grid.
     pub point: OperatingPoint,
-    /// The states at the grid point.
+    /// The states there.
     pub state: State,
-    /// Time from the grid point to the present, s.
+    /// Time from there to the present, s.
     pub elapsed: f64,
+    /// The step from there.
+    pub step: Step,
+    /// Number of steps to the end of the cell, that step included; 0 at the end, where the next
+    /// step is not known yet.
+    pub left: u32,
+}
+
+/// The steps into which a cell is divided.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Step {
+    /// Duration, s.
+    pub duration: f64,
+    /// Whether the blades flap too fast for plain steps.
+    pub is_stiff: bool,
 }
 
 /// The operating point during a communication step.
@@ -50,14 +69,39 @@ impl<F: FnMut(f64) -> OperatingPoint> Inputs<F> {
 /// Maximum time between grid points, s. It holds for slow rotors.
 pub const LONGEST_CELL: f64 = 0.02;
 
-/// Maximum number of steps within one communication step.
-const MAX_STEPS: u32 = 100_000;
+/// Maximum number of halved steps in a cell.
+const MAX_STEPS_IN_CELL: u32 = 1 << 24;
+
+/// Part of a step within which a point counts as reached.
+const REACHED: f64 = 1.0 - 1e-9;
 
 /// Largest change of settled states in a step, as a fraction of tip speed plus airspeed.
 const SETTLED: f64 = 1e-15;
 
 /// The same for a stopped rotor in still air, m/s. Its wake decays more and more slowly.
 const SETTLED_IN_STILL_AIR: f64 = 1e-8;
+
+impl Step {
+    /// A step half as long, and the number of them in the time of `left` such steps.
+    fn halved(self, left: u32) -> Result<(Self, u32), SolveError> {
+        if left > MAX_STEPS_IN_CELL / 2 {
+            return Err(SolveError::FlappingTooFast);
+        }
+        let half = Self {
+            duration: 0.5 * self.duration,
+            ..self
+        };
+        Ok((half, 2 * left))
+    }
+}
+
+impl Since {
+    /// Halves the steps to the end of the cell.
+    fn refine(&mut self) -> Result<(), SolveError> {
+        (self.step, self.left) = self.step.halved(self.left)?;
+        Ok(())
+    }
+}
 
 impl Memory {
     /// The memory of a simulation that starts with these states.
@@ -83,68 +127,223 @@ impl Integration<'_> {
         memory: &Memory,
         duration: f64,
     ) -> Result<Memory, SolveError> {
-        let point = inputs.at(0.0);
-        let is_constant = matches!(inputs, Inputs::Constant(_));
-        if !self.rotor.has_memory(&point) {
+        if !self.rotor.has_memory(&inputs.at(0.0)) {
             let speed = mean_speed(&mut inputs, duration);
             let mut state = memory.state;
             state.azimuth += speed * duration;
             return Ok(Memory::starting(state));
         }
-        let mut since = match memory.since {
-            Some(since) if is_constant && since.point == point => since,
-            _ => Since {
-                point,
-                state: memory.state,
-                elapsed: 0.0,
-            },
-        };
+        match inputs {
+            Inputs::Constant(point) => self.at_constant_inputs(&point, memory, duration),
+            Inputs::Moving(point_at) => {
+                let state = self.with_moving_inputs(point_at, &memory.state, duration)?;
+                Ok(Memory::starting(state))
+            }
+        }
+    }
+
+    fn at_constant_inputs(
+        &mut self,
+        point: &OperatingPoint,
+        memory: &Memory,
+        duration: f64,
+    ) -> Result<Memory, SolveError> {
+        let known = memory.since.filter(|since| since.point == *point);
+        let mut since = known.unwrap_or(Since {
+            point: *point,
+            state: memory.state,
+            elapsed: 0.0,
+            step: Step::default(),
+            left: 0,
+        });
         let mut remaining = since.elapsed + duration;
-        let mut steps = 0;
-        loop {
-            // Inputs that move have their values at the time of the grid point.
-            let begin = duration - remaining;
-            let point = inputs.at(begin);
-            let speed = point.at_speed_of(&since.state).speed;
-            let cell = self.cell(&point, speed);
-            // Fail at once instead of exhausting the step budget.
-            if steps == 0
-                && remaining / cell * self.rotor.stable_steps(&point, &since.state, cell)
-                    > f64::from(MAX_STEPS)
-                && self.rotor.evaluate(&point, &since.state).never_settles()
-            {
-                return Err(SolveError::StepTooLong(duration));
+        if known.is_none() {
+            self.refuse_hopeless(point, &since.state, remaining)?;
+        }
+        let mut present = None;
+        while remaining > 0.0 {
+            if since.left == 0 {
+                self.begin_cell(&mut since)?;
             }
-            let reaches_grid = remaining >= cell * (1.0 - 1e-9);
-            let part = if reaches_grid { cell } else { remaining };
-            let stretch = Stretch { begin, part };
-            let state = self
-                .integrate(&mut inputs, &since.state, stretch, &mut steps)?
-                .ok_or(SolveError::StepTooLong(duration))?;
-            if !reaches_grid {
-                since.elapsed = remaining;
-                return Ok(Memory {
-                    state,
-                    since: is_constant.then_some(since),
+            let is_partial = remaining < since.step.duration * REACHED;
+            let state = if is_partial && known.is_none() {
+                let part = Step {
+                    duration: remaining,
+                    ..since.step
+                };
+                self.step(&since.state, |_| *point, part)?
+            } else {
+                self.step_ahead(&since)?
+            };
+            let Some(state) = state else {
+                since.refine()?;
+                continue;
+            };
+            if is_partial {
+                present = Some(match known {
+                    Some(_) => self.between(&since, &state, remaining)?,
+                    None => state,
                 });
+                break;
             }
-            remaining = (remaining - part).max(0.0);
+            remaining = (remaining - since.step.duration).max(0.0);
             // A rotor that a torque drives never settles: even a small torque moves it in the end.
-            let has_settled = is_constant
-                && !point.is_driven()
-                && state.largest_change(&since.state) <= settled(self.rotor, &point);
+            let change = state.largest_change(&since.state) / since.step.duration;
+            let has_settled = !point.is_driven()
+                && change * self.cell(point, point.speed) <= settled(self.rotor, point);
             since.state = state;
+            since.left -= 1;
             if has_settled {
-                since.state.azimuth += speed * remaining;
+                since.state.azimuth += point.speed * remaining;
+                since.left = 0;
                 remaining = 0.0;
             }
-            since.elapsed = remaining;
-            if remaining == 0.0 {
-                return Ok(Memory {
-                    state: since.state,
-                    since: is_constant.then_some(since),
-                });
+        }
+        since.elapsed = remaining;
+        Ok(Memory {
+            state: present.unwrap_or(since.state),
+            since: Some(since),
+        })
+    }
+
+    /// Fails at once where the work of a communication step would exhaust what is allowed. A rotor
+    /// that settles may stop early.
+    fn refuse_hopeless(
+        &self,
+        point: &OperatingPoint,
+        state: &State,
+        duration: f64,
+    ) -> Result<(), SolveError> {
+        let cell = self.cell(point, point.at_speed_of(state).speed);
+        let division = self.rotor.division(point, state, cell);
+        let steps = duration / cell * division.count();
+        let work = steps * self.rotor.work_of_step(point, state, division.is_stiff());
+        if work > self.workspace.work.left() as f64
+            && self.rotor.evaluate(point, state).never_settles()
+        {
+            return Err(self.workspace.work.exceeded());
+        }
+        Ok(())
+    }
+
+    /// Divides the next cell into steps.
+    fn begin_cell(&self, since: &mut Since) -> Result<(), SolveError> {
+        let speed = since.point.at_speed_of(&since.state).speed;
+        let cell = self.cell(&since.point, speed);
+        let division = self.rotor.division(&since.point, &since.state, cell);
+        since.left = self.count(&division)?;
+        since.step = Step {
+            duration: cell / f64::from(since.left),
+            is_stiff: division.is_stiff(),
+        };
+        Ok(())
+    }
+
+    /// Number of steps in a division.
+    fn count(&self, division: &Division) -> Result<u32, SolveError> {
+        let count = division.count();
+        if !count.is_finite() {
+            return Err(SolveError::RatesNotFinite);
+        }
+        // Each step takes some work.
+        if count > self.workspace.work.left().min(u32::MAX.into()) as f64 {
+            return Err(self.workspace.work.exceeded());
+        }
+        Ok(count as u32)
+    }
+
+    /// The states one step ahead of the last point; none if the step is too long for the flapping.
+    fn step_ahead(&mut self, since: &Since) -> Result<Option<State>, SolveError> {
+        let known = self.known_rates.step_ahead(self.rotor, since);
+        if known.is_some() {
+            return Ok(known);
+        }
+        let state = self.step(&since.state, |_| since.point, since.step)?;
+        if let Some(state) = &state {
+            self.known_rates.keep_step_ahead(self.rotor, since, state);
+        }
+        Ok(state)
+    }
+
+    /// The states `elapsed` s after the last point, where the step from there ends at `next`.
+    fn between(&mut self, since: &Since, next: &State, elapsed: f64) -> Result<State, SolveError> {
+        let (rotor, point) = (self.rotor, &since.point);
+        let first = self.first_rates(point, &since.state)?;
+        let last = match self.known_rates.find(rotor, point, next) {
+            Some(rates) => rates,
+            None => rotor.rates(point, next, self.workspace)?,
+        };
+        self.known_rates
+            .keep_last(rotor, point, &since.state, &first);
+        self.known_rates.keep_next(rotor, point, next, &last);
+        let duration = since.step.duration;
+        let ends = (next, &last);
+        let part = elapsed / duration;
+        Ok(since.state.between(&first, ends, part, duration))
+    }
+
+    fn with_moving_inputs(
+        &mut self,
+        mut point_at: impl FnMut(f64) -> OperatingPoint,
+        start: &State,
+        duration: f64,
+    ) -> Result<State, SolveError> {
+        let mut state = *start;
+        let mut remaining = duration;
+        self.refuse_hopeless(&point_at(0.0), &state, duration)?;
+        while remaining > 0.0 {
+            // Inputs that move have their values at the time of the grid point.
+            let begin = duration - remaining;
+            let point = point_at(begin);
+            let cell = self.cell(&point, point.at_speed_of(&state).speed);
+            let part = if remaining >= cell * REACHED {
+                cell
+            } else {
+                remaining
+            };
+            // Short enough for the fastest rates at either end.
+            let division = self.rotor.division(&point, &state, part);
+            let at_end = self.rotor.division(&point_at(begin + part), &state, part);
+            let division = division.finer(&at_end);
+            let mut left = self.count(&division)?;
+            let mut step = Step {
+                duration: part / f64::from(left),
+                is_stiff: division.is_stiff(),
+            };
+            let mut done = 0;
+            while left > 0 {
+                let from = begin + f64::from(done) * step.duration;
+                match self.step(&state, |offset| point_at(from + offset), step)? {
+                    Some(next) => {
+                        state = next;
+                        left -= 1;
+                        done += 1;
+                    }
+                    None => {
+                        (step, left) = step.halved(left)?;
+                        done *= 2;
+                    }
+                }
             }
+            remaining = (remaining - part).max(0.0);
+        }
+        Ok(state)
+    }
+
+    /// The states after a step; none if it is too long for the flapping.
+    fn step(
+        &mut self,
+        start: &State,
+        mut point_at: impl FnMut(f64) -> OperatingPoint,
+        step: Step,
+    ) -> Result<Option<State>, SolveError> {
+        let first = self.first_rates(&point_at(0.0), start)?;
+        let (rotor, workspace) = (self.rotor, &mut *self.workspace);
+        if step.is_stiff {
+            rotor.stiff_step_from(&first, point_at, start, step.duration, workspace)
+        } else {
+            let state = rotor.step_from(&first, point_at, start, step.duration, workspace)?;
+            Ok(Some(state))
         }
     }
 
@@ -161,61 +360,15 @@ impl Integration<'_> {
         }
     }
 
-    /// The states after a stretch. The steps are short enough for the fastest rate of the states at
-    /// its beginning and, if inputs move, at its end. None if that needs more than `MAX_STEPS` in
-    /// the communication step.
-    fn integrate<F: FnMut(f64) -> OperatingPoint>(
-        &mut self,
-        inputs: &mut Inputs<F>,
-        start: &State,
-        Stretch { begin, part }: Stretch,
-        steps: &mut u32,
-    ) -> Result<Option<State>, SolveError> {
-        let mut count = self.rotor.stable_steps(&inputs.at(begin), start, part);
-        if matches!(inputs, Inputs::Moving(_)) {
-            let at_end = self
-                .rotor
-                .stable_steps(&inputs.at(begin + part), start, part);
-            count = count.max(at_end);
-        }
-        if count.is_nan() || count > f64::from(MAX_STEPS - *steps) {
-            return Ok(None);
-        }
-        *steps += count as u32;
-        let step = part / count;
-        let mut state = *start;
-        for i in 0..count as u32 {
-            let from = begin + f64::from(i) * step;
-            let first = match i {
-                0 => self.first_rates(&inputs.at(from), &state)?,
-                _ => self.rotor.rates(&inputs.at(from), &state, self.workspace)?,
-            };
-            let point_at = |offset| inputs.at(from + offset);
-            state = self
-                .rotor
-                .step_from(&first, point_at, &state, step, self.workspace)?;
-        }
-        Ok(Some(state))
-    }
-
-    /// The rates at the beginning of a stretch.
+    /// The rates where a step begins.
     fn first_rates(&mut self, point: &OperatingPoint, state: &State) -> Result<State, SolveError> {
         if let Some(rates) = self.known_rates.find(self.rotor, point, state) {
             return Ok(rates);
         }
         let rates = self.rotor.rates(point, state, self.workspace)?;
-        self.known_rates.keep_grid(self.rotor, point, state, &rates);
+        self.known_rates.keep_last(self.rotor, point, state, &rates);
         Ok(rates)
     }
-}
-
-/// A part of the communication step.
-#[derive(Clone, Copy)]
-struct Stretch {
-    /// Time since the beginning of the communication step, s.
-    begin: f64,
-    /// Duration of the part, s.
-    part: f64,
 }
 
 /// The mean rotor speed in a communication step, in which it changes linearly.

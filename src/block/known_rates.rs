@@ -1,15 +1,31 @@
-//! Rates of the states that have been computed already. A step begins where outputs were computed
-//! or where the last step began, so that its first stage is known there. This spares an evaluation
-//! in four and never changes a bit.
+//! Rates and steps of the states that have been computed already. A step begins where outputs were
+//! computed or where the last step ended, so that its first stage is known there, and the step ahead
+//! of the present is kept until the present has passed it. This never changes a bit.
 
+use super::integrate::{Since, Step};
 use rotor::{OperatingPoint, Rotor, State};
 use std::sync::Arc;
 
-/// The last rates of each kind.
+/// The last rates of each kind, and the last step.
 #[derive(Debug, Default)]
 pub struct KnownRates {
+    /// With the outputs.
     published: Option<Known>,
-    grid: Option<Known>,
+    /// Where the last step began.
+    last: Option<Known>,
+    /// Where it ended.
+    next: Option<Known>,
+    step: Option<KnownStep>,
+}
+
+/// A step, and what it belongs to.
+#[derive(Debug)]
+struct KnownStep {
+    rotor: Arc<Rotor>,
+    point: OperatingPoint,
+    start: State,
+    step: Step,
+    end: State,
 }
 
 /// Rates, and the rotor, operating point and state that they belong to.
@@ -27,7 +43,8 @@ impl KnownRates {
         let fits = |known: &&Known| {
             Arc::ptr_eq(&known.rotor, rotor) && known.point == *point && known.state == *state
         };
-        let known = self.published.iter().chain(&self.grid).find(fits)?;
+        let all = self.published.iter().chain(&self.last).chain(&self.next);
+        let known = all.into_iter().find(fits)?;
         Some(known.rates)
     }
 
@@ -42,15 +59,47 @@ impl KnownRates {
         self.published = Some(Known::new(rotor, point, state, rates));
     }
 
-    /// Keeps the rates at the grid point where a step begins.
-    pub fn keep_grid(
+    /// Keeps the rates where a step begins.
+    pub fn keep_last(
         &mut self,
         rotor: &Arc<Rotor>,
         point: &OperatingPoint,
         state: &State,
         rates: &State,
     ) {
-        self.grid = Some(Known::new(rotor, point, state, rates));
+        self.last = Some(Known::new(rotor, point, state, rates));
+    }
+
+    /// Keeps the rates where a step ends.
+    pub fn keep_next(
+        &mut self,
+        rotor: &Arc<Rotor>,
+        point: &OperatingPoint,
+        state: &State,
+        rates: &State,
+    ) {
+        self.next = Some(Known::new(rotor, point, state, rates));
+    }
+
+    /// The states at the end of the step from the last point, if they are known.
+    pub fn step_ahead(&self, rotor: &Arc<Rotor>, since: &Since) -> Option<State> {
+        let known = self.step.as_ref()?;
+        let fits = Arc::ptr_eq(&known.rotor, rotor)
+            && known.point == since.point
+            && known.start == since.state
+            && known.step == since.step;
+        fits.then_some(known.end)
+    }
+
+    /// Keeps the states at the end of the step from the last point.
+    pub fn keep_step_ahead(&mut self, rotor: &Arc<Rotor>, since: &Since, end: &State) {
+        self.step = Some(KnownStep {
+            rotor: Arc::clone(rotor),
+            point: since.point,
+            start: since.state,
+            step: since.step,
+            end: *end,
+        });
     }
 }
 

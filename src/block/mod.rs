@@ -15,6 +15,8 @@
 
 mod airfoils;
 mod beyond_stops;
+#[cfg(test)]
+mod bounded_work;
 mod co_simulation;
 mod computation;
 mod derivative;
@@ -66,6 +68,10 @@ pub enum BlockError {
     Setup(#[from] SetupError),
     #[error("{0}; check the inputs: {1}")]
     Unsolved(SolveError, String),
+    #[error(
+        "this takes more work than numerics.budget = {0} computations of blade sections; take shorter steps, set numerics.elements lower or numerics.azimuthStep higher, or raise numerics.budget"
+    )]
+    TooMuchWork(u64),
     #[error("{name} would be {value}, which is not finite; check the inputs: {inputs}")]
     NotFinite {
         name: &'static str,

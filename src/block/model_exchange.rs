@@ -80,6 +80,7 @@ impl RotorBlock {
         }
         let point = FlightCondition::new(&self.values)?.point;
         let rotor = self.rotor()?;
+        self.workspace.work = self.budget();
         let rates = rotor.rates(&point, &self.memory.state, &mut self.workspace);
         let rates = rates.map_err(|e| self.unsolved(e))?;
         let mut reals = self.values.reals;

@@ -3,7 +3,7 @@
 use super::{
     BlockError, Fresh, RotorBlock,
     files::FileHash,
-    integrate::{LONGEST_CELL, Memory, Since},
+    integrate::{LONGEST_CELL, Memory, Since, Step},
     ramp::Slopes,
     setup,
     state_vector::{from_vector, read_states, to_vector, write_states},
@@ -155,7 +155,10 @@ impl Snapshot {
         if let Some(GridPoint(since)) = &self.since
             && (!is_finite(&since.state)
                 || !is_point_finite(&since.point)
-                || !(0.0..=LONGEST_CELL).contains(&since.elapsed))
+                || !(0.0..=LONGEST_CELL).contains(&since.elapsed)
+                || !(0.0..=LONGEST_CELL).contains(&since.step.duration)
+                || (since.left > 0 && since.elapsed > since.step.duration)
+                || (since.left == 0 && since.elapsed > 0.0))
         {
             return wrong("the integration");
         }
@@ -230,6 +233,16 @@ struct SinceFields {
     #[serde(with = "vector")]
     state: State,
     elapsed: f64,
+    #[serde(with = "StepFields")]
+    step: Step,
+    left: u32,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(remote = "Step")]
+struct StepFields {
+    duration: f64,
+    is_stiff: bool,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -324,6 +337,11 @@ mod tests {
             point: operating_point(),
             state: from_vector(&core::array::from_fn(|i| i as f64)),
             elapsed: 0.01,
+            step: Step {
+                duration: 0.015,
+                is_stiff: true,
+            },
+            left: 3,
         }));
         let written = postcard::to_allocvec(&snapshot).unwrap();
         let read: Snapshot = postcard::from_bytes(&written).unwrap();
@@ -365,14 +383,28 @@ mod tests {
             refused(&|s| s.state.azimuth = f64::NAN),
             "a continuous state"
         );
-        let late = |s: &mut Snapshot| {
+        let late = |s: &mut Snapshot, (elapsed, duration, left)| {
             s.since = Some(GridPoint(Since {
                 point: operating_point(),
                 state: State::default(),
-                elapsed: 2.0 * LONGEST_CELL,
+                elapsed,
+                step: Step {
+                    duration,
+                    is_stiff: false,
+                },
+                left,
             }));
         };
-        assert_eq!(refused(&late), "the integration");
+        // Elapsed time, duration of the step and steps left.
+        for wrong in [
+            (2.0 * LONGEST_CELL, LONGEST_CELL, 1),
+            (0.0, 2.0 * LONGEST_CELL, 1),
+            (0.0, f64::NAN, 1),
+            (0.01, 0.005, 1),
+            (0.01, 0.02, 0),
+        ] {
+            assert_eq!(refused(&|s| late(s, wrong)), "the integration");
+        }
         let nowhere = |s: &mut Snapshot| {
             let mut point = operating_point();
             point.airspeed.y = f64::NAN;
@@ -380,6 +412,8 @@ mod tests {
                 point,
                 state: State::default(),
                 elapsed: 0.0,
+                step: Step::default(),
+                left: 0,
             }));
         };
         assert_eq!(refused(&nowhere), "the integration");
