@@ -23,6 +23,7 @@ mod life_cycle;
 mod logging;
 mod many;
 mod model_exchange;
+mod no_allocation;
 mod ownership;
 mod pointers;
 mod random;

@@ -13,15 +13,28 @@ const MARK: &str = "<the part that is watched>";
 /// In the parent: runs the test `name` (its full path) again in a child process, and answers what
 /// that printed, all of it and the watched part of stdout and stderr. In the child: none.
 pub fn run_alone(name: &str) -> Option<Printed> {
+    run_with(name, |_| ())
+}
+
+/// The same in a process that counts its allocations (see `allocations`).
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+pub fn run_counting(name: &str) -> Option<Printed> {
+    run_with(name, |command| {
+        command.env("LD_PRELOAD", super::allocations::library());
+    })
+}
+
+fn run_with(name: &str, prepare: impl FnOnce(&mut Command)) -> Option<Printed> {
     if std::env::var_os(CHILD).is_some() {
         return None;
     }
-    let output = Command::new(std::env::current_exe().unwrap())
+    let mut command = Command::new(std::env::current_exe().unwrap());
+    command
         .args(["--exact", name, "--nocapture", "--test-threads=1"])
         .env(CHILD, "1")
-        .env(UNPACKED, &Fmu::shared().folder)
-        .output()
-        .unwrap();
+        .env(UNPACKED, &Fmu::shared().folder);
+    prepare(&mut command);
+    let output = command.output().unwrap();
     let printed = Printed(output);
     assert!(
         printed.0.status.success(),

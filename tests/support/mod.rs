@@ -7,10 +7,13 @@
 //! * `instance.rs`: an instance with variables by name, and its log
 //! * `model_exchange.rs`: its functions of Model Exchange
 //! * `child.rs`: a test run alone in a process of its own
+//! * `allocations.rs`: counting allocations in such a process, and letting them fail
 
 // Each test uses a part of this.
 #![allow(dead_code, unused_imports)]
 
+#[cfg(all(target_os = "linux", target_env = "gnu"))]
+pub mod allocations;
 pub mod block;
 pub mod c;
 pub mod child;

@@ -1,6 +1,9 @@
 //! A running simulation allocates no memory: not when numbers are set and read, in steps, and with
 //! states and derivatives.
 
+#![cfg(all(target_os = "linux", target_env = "gnu"))]
+
+use crate::support::{allocations::Allocations, child};
 use helicopter_rotor::{
     block::variables::{GUID, STATES, boolean, integer, real},
     fmi2::{
@@ -19,36 +22,7 @@ use helicopter_rotor::{
         },
     },
 };
-use std::{
-    alloc::{GlobalAlloc, Layout, System},
-    cell::Cell,
-    ffi::CString,
-    ptr,
-};
-
-/// The system's allocator with a count of the allocations of each thread.
-struct Counting;
-
-thread_local! {
-    static COUNT: Cell<u64> = const { Cell::new(0) };
-}
-
-// SAFETY: everything is passed on to the system's allocator.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        COUNT.with(|count| count.set(count.get() + 1));
-        // SAFETY: passed on from the caller.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: passed on from the caller.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-}
-
-#[global_allocator]
-static ALLOCATOR: Counting = Counting;
+use std::{ffi::CString, ptr};
 
 /// Every inflow model, with rigid and with flapping blades.
 fn rotors() -> Vec<(&'static str, i32)> {
@@ -113,19 +87,16 @@ fn thrust(c: fmi2Component) -> f64 {
     values[0]
 }
 
-/// The number of allocations in a part of the test.
-fn allocations(part: impl FnOnce()) -> u64 {
-    let before = COUNT.with(Cell::get);
-    part();
-    COUNT.with(Cell::get) - before
-}
-
 #[test]
 fn steps_and_numbers_allocate_nothing() {
+    if child::run_counting("no_allocation::steps_and_numbers_allocate_nothing").is_some() {
+        return;
+    }
+    let allocations = Allocations::find();
     for rotor in rotors() {
         for is_moving in [false, true] {
             let c = instance(FMI2_CO_SIMULATION, rotor);
-            let count = allocations(|| {
+            let count = allocations.count(|| {
                 for i in 0..5 {
                     assert_eq!(set_inputs(c, i), fmi2Status::fmi2OK);
                     let (orders, slopes) = ([1; 4], [0.1, 20.0, 1.0, -1.0]);
@@ -155,6 +126,12 @@ fn steps_and_numbers_allocate_nothing() {
 
 #[test]
 fn an_integration_by_the_importer_allocates_nothing() {
+    if child::run_counting("no_allocation::an_integration_by_the_importer_allocates_nothing")
+        .is_some()
+    {
+        return;
+    }
+    let allocations = Allocations::find();
     for rotor in rotors() {
         let c = instance(FMI2_MODEL_EXCHANGE, rotor);
         let mut info = fmi2EventInfo {
@@ -168,7 +145,7 @@ fn an_integration_by_the_importer_allocates_nothing() {
         let (mut x, mut rates) = ([0.0; STATES.len()], [0.0; STATES.len()]);
         let (mut event, mut end) = (1, 1);
         let n = STATES.len();
-        let count = allocations(|| {
+        let count = allocations.count(|| {
             for i in 0..5 {
                 // SAFETY: the calls and their arguments are those of the standard.
                 let statuses = unsafe {
