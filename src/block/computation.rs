@@ -10,7 +10,7 @@ use super::{
     outside_data::OutsideDataNotice,
     plausibility::{self, Initialized},
     references::Reals,
-    setup,
+    settings, setup,
     shown::shown,
     values::Values,
     variables::{Causality, FlowState, REALS, integer, real},
@@ -25,7 +25,7 @@ const NO_STEADY_START: &str = "no state was found in which inflow and flapping r
 
 impl RotorBlock {
     /// Ends the configuration, after which fixed parameters cannot change. Warns of implausible
-    /// values.
+    /// values, and of assignments in `settings` that were replaced.
     pub fn start(&mut self) -> Result<(), BlockError> {
         self.update()?;
         let start = Initialized {
@@ -34,7 +34,8 @@ impl RotorBlock {
             point: &FlightCondition::new(&self.values)?.point,
             shipped: &|| airfoils::shipped(&self.resources),
         };
-        let warnings = plausibility::warnings(&start);
+        let mut warnings = plausibility::warnings(&start);
+        warnings.extend(settings::replaced(&self.values));
         self.notes.extend(warnings.into_iter().map(Note::Warning));
         self.stage = Stage::Running;
         Ok(())

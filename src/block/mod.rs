@@ -2,7 +2,8 @@
 //! Independent of the FMI version.
 //!
 //! * `variables`, `references`, `values`: the table of variables, and a value for each of them
-//! * `setting`, `limited_inputs`: values into the block
+//! * `setting`, `settings`, `limited_inputs`: values into the block, one by one or as a text of
+//!   assignments
 //! * `setup`, `airfoils`, `flight_condition`, `ramp`: from values to a rotor and its operating
 //!   point
 //! * `computation`, `outputs`: the rotor's response, written to the outputs
@@ -33,6 +34,7 @@ mod plausibility;
 mod ramp;
 mod references;
 mod setting;
+mod settings;
 mod setup;
 mod shown;
 mod snapshot;
@@ -43,6 +45,7 @@ pub mod variables;
 pub use derivative::DerivativeError;
 pub use location::path_from_uri;
 pub use references::{Booleans, Integers, Names, PerVariable, Reals, Reference, Strings};
+pub use settings::{SetStringsError, SettingsError};
 pub use setup::SetupError;
 pub use snapshot::{Contradiction, Snapshot};
 pub use values::{Stage, ValueError, Values};

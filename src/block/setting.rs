@@ -4,8 +4,9 @@ use super::{
     Fresh, Note, RotorBlock, Stage, ValueError, Values,
     integrate::Memory,
     references::Names,
+    settings::{self, SetStringsError},
     state_vector::read_states,
-    variables::{BooleanRef, Causality, IntegerRef, RealRef, StringRef},
+    variables::{BooleanRef, Causality, IntegerRef, RealRef, StringRef, string},
 };
 
 impl RotorBlock {
@@ -68,13 +69,23 @@ impl RotorBlock {
         Ok(())
     }
 
-    /// Sets String variables. If one value is refused, none is set.
+    /// Sets String variables in their order. If one value is refused, none is set. `settings` also
+    /// sets the parameters to which it assigns values, which is up to the end of initialisation;
+    /// the same text may be set later, too, but changes nothing.
     pub fn set_strings(
         &mut self,
         names: &[impl Names<StringRef>],
         values: &[&str],
-    ) -> Result<(), ValueError> {
-        self.values.set_strings(self.stage, names, values)?;
+    ) -> Result<(), SetStringsError> {
+        let mut changed = self.values.clone();
+        for (name, value) in names.iter().zip(values) {
+            let reference = name.reference()?;
+            changed.set_strings(self.stage, &[reference], &[value])?;
+            if reference == string::SETTINGS && self.stage == Stage::Configuring {
+                settings::assign(&mut changed, value)?;
+            }
+        }
+        self.values = changed;
         self.invalidate(self.stage == Stage::Configuring);
         Ok(())
     }

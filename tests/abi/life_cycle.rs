@@ -170,7 +170,8 @@ fn outputs_in_initialization_mode_are_those_of_the_values_set_before() {
 
 #[test]
 fn a_failed_initialisation_can_be_mended() {
-    for (name, default) in STRINGS.iter().map(|v| (v.name, v.start)) {
+    let files = STRINGS.iter().filter(|v| v.name.ends_with(".file"));
+    for (name, default) in files.map(|v| (v.name, v.start)) {
         let instance = Instance::new();
         assert_eq!(instance.set_string(name, "no-such-file"), c::OK);
         instance.begin_initialization();

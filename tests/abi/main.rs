@@ -29,4 +29,5 @@ mod pointers;
 mod random;
 mod resources;
 mod serialized;
+mod settings;
 mod silence;

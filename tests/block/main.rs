@@ -23,4 +23,5 @@ mod model_effects;
 mod names;
 mod presets;
 mod propellers;
+mod settings;
 mod slopes_by_reynolds;
