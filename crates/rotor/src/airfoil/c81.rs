@@ -16,11 +16,12 @@
 //! table four counts will do in place of six. Blank lines do not count.
 
 use super::{
-    Airfoil, AirfoilError, Axis, Data, Layers, Table,
-    curve::{Coefficient, Curve, CurveProblem},
+    Airfoil, AirfoilError, Axis, Coefficient, CurveProblem, Data, Layers, Table, TableError,
     formats::{Format, has_extension},
+    layers::MAX_LAYERS,
     records::{Layout, Number, Problem, Records, words},
 };
+use crate::text_file::{excerpt, push};
 
 /// A file is in this format if its name ends in `.c81`.
 pub const FORMAT: Format = Format {
@@ -36,7 +37,7 @@ const COUNTS: usize = 6;
 const NEEDED_COUNTS: usize = 4;
 
 /// Maximum number of Mach numbers or of angles; no table has more.
-const MAX_COUNT: usize = 999;
+const MAX_COUNT: usize = MAX_LAYERS;
 
 /// The first line.
 #[derive(Debug, PartialEq)]
@@ -63,7 +64,7 @@ fn read(text: &str) -> Result<Airfoil, Problem> {
         let field: String = first.chars().skip(COUNTS_COLUMN).take(2).collect();
         let problem = format!(
             "`{}` is not a count; columns 31-42 hold ML, NL, MD, ND, MM and NM in two digits each, or the line ends with these numbers between blanks",
-            field.trim()
+            excerpt(field.trim())
         );
         (line, COUNTS_COLUMN + 1, problem)
     })?;
@@ -88,7 +89,8 @@ fn header_in_columns(line: &str) -> Option<Header> {
     if line.contains('\t') {
         return None;
     }
-    let text: Vec<char> = line.chars().collect();
+    let end = COUNTS_COLUMN + 2 * NEEDED_COUNTS;
+    let text: Vec<char> = line.chars().take(end).collect();
     let mut counts = [0; NEEDED_COUNTS];
     for (i, slot) in counts.iter_mut().enumerate() {
         let field = text.get(COUNTS_COLUMN + 2 * i..)?.iter().take(2);
@@ -96,17 +98,26 @@ fn header_in_columns(line: &str) -> Option<Header> {
     }
     let name: String = text.iter().take(COUNTS_COLUMN).collect();
     Some(Header {
-        name: name.trim().to_owned(),
+        name: excerpt(name.trim()),
         counts,
     })
 }
 
 /// Counts at the end of the line, between blanks or all in one word of two digits each.
 fn free_header(line: &str) -> Option<Header> {
-    let words: Vec<(usize, &str)> = words(line).collect();
-    let is_number = |word: &&(usize, &str)| word.1.bytes().all(|b| b.is_ascii_digit());
-    let numbers = words.iter().rev().take_while(is_number).count();
-    let (begin, texts): (usize, Vec<String>) = match words[words.len() - numbers..] {
+    // The last words, as far as they are numbers.
+    let mut numbers: Vec<(usize, &str)> = Vec::new();
+    for (column, word) in words(line) {
+        if !word.bytes().all(|b| b.is_ascii_digit()) {
+            numbers.clear();
+            continue;
+        }
+        if numbers.len() == COUNTS {
+            numbers.remove(0);
+        }
+        numbers.push((column, word));
+    }
+    let (begin, texts): (usize, Vec<String>) = match numbers[..] {
         [.., (column, run)] if run.len() == 2 * COUNTS || run.len() == 2 * NEEDED_COUNTS => {
             let pairs = run.as_bytes().chunks(2);
             let text = |pair: &[u8]| String::from_utf8_lossy(pair).into_owned();
@@ -114,7 +125,7 @@ fn free_header(line: &str) -> Option<Header> {
         }
         ref numbers => {
             let taken = match numbers.len() {
-                COUNTS.. => COUNTS,
+                COUNTS => COUNTS,
                 NEEDED_COUNTS => NEEDED_COUNTS,
                 // A number of the section, such as 0012, before four counts; else one is missing.
                 5 if numbers[0].1.len() > 2 => NEEDED_COUNTS,
@@ -129,10 +140,11 @@ fn free_header(line: &str) -> Option<Header> {
     for (slot, text) in counts.iter_mut().zip(&texts) {
         *slot = count(text)?;
     }
-    let name: String = line.chars().take(begin - 1).collect();
+    let end = line.char_indices().nth(begin - 1);
+    let name = &line[..end.map_or(line.len(), |(index, _)| index)];
     let is_around = |c: char| c.is_whitespace() || c == ',' || c == ';';
     Some(Header {
-        name: name.trim_matches(is_around).to_owned(),
+        name: excerpt(name.trim_matches(is_around)),
         counts,
     })
 }
@@ -153,37 +165,38 @@ fn table(
         values: machs,
         what: &format!("a Mach number of the {name} table"),
     })?;
-    let layers = Layers::try_new(Axis::Mach, numbers.iter().map(|n| n.value).collect())
+    let layers = Layers::try_new(Axis::Mach, numbers.iter().map(|n| n.value))
         .map_err(|error| at(&numbers[error.layer], format!("{name} table: {error}")))?;
     let mut rows = Vec::new();
     for _ in 0..angles {
-        rows.push(records.numbers(Layout {
+        let row = records.numbers(Layout {
             has_angle: true,
             values: machs,
             what: &format!("a value of the {name} table"),
-        })?);
+        })?;
+        let begin = row[0];
+        push(&mut rows, row, "the rows").map_err(|error| at(&begin, error.to_string()))?;
     }
-    Table::try_new(layers, |mach| {
-        let points: Vec<(f64, f64)> = rows
-            .iter()
-            .map(|row| (row[0].value, row[mach + 1].value))
-            .collect();
-        Curve::try_from_degrees(coefficient, &points).map_err(|error| {
-            let row = &rows[error.point];
-            let number = match error.problem {
-                CurveProblem::Begin(_)
-                | CurveProblem::End(_)
-                | CurveProblem::NotIncreasing { .. }
-                | CurveProblem::Empty
-                | CurveProblem::TooMany => &row[0],
-                CurveProblem::NotFinite { .. }
-                | CurveProblem::TooLarge { .. }
-                | CurveProblem::NegativeDrag(_)
-                | CurveProblem::TooSteep { .. } => &row[mach + 1],
-            };
-            let problem = format!("{name} table of {angles} angles by the first line: {error}");
-            at(number, problem)
-        })
+    let points = |mach: usize| {
+        rows.iter()
+            .map(move |row| (row[0].value, row[mach + 1].value))
+    };
+    Table::try_new(layers, coefficient, points).map_err(|TableError { layer, error }| {
+        let row = &rows[error.point];
+        let number = match error.problem {
+            CurveProblem::Begin(_)
+            | CurveProblem::End(_)
+            | CurveProblem::NotIncreasing { .. }
+            | CurveProblem::Empty
+            | CurveProblem::NoMemory(_)
+            | CurveProblem::TooMany => &row[0],
+            CurveProblem::NotFinite { .. }
+            | CurveProblem::TooLarge { .. }
+            | CurveProblem::NegativeDrag(_)
+            | CurveProblem::TooSteep { .. } => &row[layer + 1],
+        };
+        let problem = format!("{name} table of {angles} angles by the first line: {error}");
+        at(number, problem)
     })
 }
 

@@ -19,8 +19,10 @@ use super::{
     Airfoil, AirfoilError, Data,
     formats::Format,
     laws::{Coefficients, Law, LawError, Laws},
+    layers::{Axis, MAX_LAYERS, check_count},
     records::{Number, Problem, words},
 };
+use crate::text_file::{excerpt, push};
 
 /// A file is in this format if its text begins with `#1`.
 pub const FORMAT: Format = Format {
@@ -37,15 +39,26 @@ const COLUMNS: usize = 4;
 /// Maximum number of coefficients of the drag polynomial.
 const MAX_DRAG_COEFFICIENTS: usize = 7;
 
+/// Maximum number of tables in a file.
+const MAX_TABLES: usize = 100;
+
+/// As many numbers as section data can have. Of a larger table, which is for something else, the
+/// other numbers are only counted.
+const MAX_NUMBERS: usize = MAX_LAYERS * (COLUMNS + MAX_DRAG_COEFFICIENTS);
+
 /// A table as its file has it.
 #[derive(Debug)]
 struct Matrix {
+    /// At most 80 characters of it.
     name: String,
     rows: usize,
     columns: usize,
     /// The line of the file that begins it.
     line: usize,
+    /// The first `MAX_NUMBERS`.
     numbers: Vec<Number>,
+    /// Of all numbers.
+    count: usize,
 }
 
 /// Whether a text begins as a CombiTable file does.
@@ -88,13 +101,20 @@ fn matrices(text: &str) -> Result<Vec<Matrix>, Problem> {
             if let Some(table) = tables.last() {
                 table.check_complete(line)?;
             }
+            if tables.len() == MAX_TABLES {
+                let problem = format!(
+                    "there are more than {MAX_TABLES} tables; put the one with the section's data into a file of its own"
+                );
+                return Err((line, 1, problem));
+            }
             tables.push(header(content, line)?);
             continue;
         }
         for (column, word) in words(content) {
             let Some(table) = tables.last_mut() else {
                 let problem = format!(
-                    "`{word}` before the first table, which begins with a line like `double {NAME}(2, 7)`"
+                    "`{}` before the first table, which begins with a line like `double {NAME}(2, 7)`",
+                    excerpt(word)
                 );
                 return Err((line, column, problem));
             };
@@ -117,7 +137,7 @@ fn header(content: &str, line: usize) -> Result<Matrix, Problem> {
     let wrong = || {
         let problem = format!(
             "`{}` does not begin a table; write `double name(rows, columns)`",
-            content.trim()
+            excerpt(content.trim())
         );
         (line, column, problem)
     };
@@ -134,11 +154,12 @@ fn header(content: &str, line: usize) -> Result<Matrix, Problem> {
     let count = |text: &str| text.trim().parse::<usize>().ok().filter(|n| *n > 0);
     match (count(rows), count(columns)) {
         (Some(rows), Some(columns)) if rest.is_empty() && !name.trim().is_empty() => Ok(Matrix {
-            name: name.trim().to_owned(),
+            name: excerpt(name.trim()),
             rows,
             columns,
             line,
             numbers: Vec::new(),
+            count: 0,
         }),
         _ => Err(wrong()),
     }
@@ -156,9 +177,10 @@ impl Matrix {
     }
 
     fn take(&mut self, word: &str, line: usize, column: usize) -> Result<(), Problem> {
-        if self.numbers.len() == self.size() {
+        if self.count == self.size() {
             let problem = format!(
-                "`{word}` is one number too many for the table {} of line {}; correct its rows and columns",
+                "`{}` is one number too many for the table {} of line {}; correct its rows and columns",
+                excerpt(word),
                 self.title(),
                 self.line
             );
@@ -166,25 +188,31 @@ impl Matrix {
         }
         let value = word.parse::<f64>().ok().filter(|v| v.is_finite());
         let Some(value) = value else {
-            return Err((line, column, format!("`{word}` is not a number")));
+            let problem = format!("`{}` is not a number", excerpt(word));
+            return Err((line, column, problem));
         };
-        self.numbers.push(Number {
+        self.count += 1;
+        if self.numbers.len() == MAX_NUMBERS {
+            return Ok(());
+        }
+        let number = Number {
             value,
             line,
             column,
-        });
-        Ok(())
+        };
+        push(&mut self.numbers, number, "the numbers of the table")
+            .map_err(|error| (line, column, error.to_string()))
     }
 
     fn check_complete(&self, line: usize) -> Result<(), Problem> {
-        if self.numbers.len() == self.size() {
+        if self.count == self.size() {
             return Ok(());
         }
         let problem = format!(
             "the table {} of line {} ends after {} numbers; add the others or correct its rows and columns",
             self.title(),
             self.line,
-            self.numbers.len()
+            self.count
         );
         Err((line, 1, problem))
     }
@@ -199,7 +227,7 @@ fn chosen(mut tables: Vec<Matrix>) -> Result<Matrix, Problem> {
     let names: Vec<&str> = tables.iter().map(|t| t.name.as_str()).collect();
     let problem = format!(
         "the tables {} are in the file; give the one with the section's data the name `{NAME}`",
-        names.join(", ")
+        excerpt(&names.join(", "))
     );
     Err((1, 1, problem))
 }
@@ -213,8 +241,14 @@ fn laws(matrix: &Matrix) -> Result<Laws, Problem> {
         );
         return Err((matrix.line, 1, problem));
     }
+    check_count(Axis::Reynolds, matrix.rows)
+        .map_err(|problem| (matrix.line, 1, problem.to_string()))?;
     let rows = || matrix.numbers.chunks_exact(matrix.columns);
-    let laws = rows().map(law).collect::<Result<_, Problem>>()?;
+    let mut laws = Vec::new();
+    for row in rows() {
+        push(&mut laws, law(row)?, "the laws")
+            .map_err(|error| (matrix.line, 1, error.to_string()))?;
+    }
     Laws::try_new(laws).map_err(|error| {
         // The Reynolds number of the wrong row.
         let place = rows().nth(error.layer).and_then(|row| row.first());
@@ -406,5 +440,28 @@ double airfoil(2, 7)  # rows, columns
         );
         let error = parse("#1\n# nothing\n", "x").unwrap_err().to_string();
         assert!(error.contains("no table"), "{error}");
+    }
+
+    #[test]
+    fn tables_of_other_things_may_be_large_but_not_that_of_the_section() {
+        let rows = |count: u32| {
+            let row = |re: u32| format!("{re} 6 4 0.2 0.01\n");
+            format!("({count}, 5)\n") + &(1..=count).map(row).collect::<String>()
+        };
+        let file = |name: &str, count: u32| {
+            let (_, good) = GOOD.split_once("double").unwrap();
+            format!("#1\ndouble {name}{}double{good}", rows(count))
+        };
+        assert_eq!(read(&file("engine", 3000)), read(GOOD));
+        let error = |text: &str| parse(text, "x").unwrap_err().to_string();
+        let short = file("engine", 3000).replace("(3000, 5)", "(3001, 5)");
+        assert!(error(&short).contains("ends after 15000 numbers"));
+        assert!(parse(&format!("#1\ndouble a{}", rows(999)), "x").is_ok());
+        assert!(
+            error(&format!("#1\ndouble a{}", rows(1000)))
+                .contains("line 2, column 1: there are more than 999 Reynolds numbers")
+        );
+        let tables = "#1\n".to_owned() + &"double a(1, 1)\n0\n".repeat(101);
+        assert!(error(&tables).contains("line 202, column 1: there are more than 100 tables"));
     }
 }

@@ -1,6 +1,9 @@
 //! One coefficient over the full circle of angles of attack.
 
-use crate::scalar::{C, Scalar};
+use crate::{
+    scalar::{C, Scalar},
+    text_file::{NoMemory, collect},
+};
 use core::f64::consts::PI;
 use thiserror::Error;
 
@@ -58,6 +61,9 @@ pub enum CurveProblem {
     /// More points than `MAX_POINTS`.
     #[error("there are more than {MAX_POINTS} angles; leave some out")]
     TooMany,
+    /// There is no memory for the curve.
+    #[error("{0}")]
+    NoMemory(NoMemory),
     /// The coefficient is NaN or infinite.
     #[error("the coefficient at {alpha} deg is not a finite number")]
     NotFinite {
@@ -101,6 +107,15 @@ pub enum CurveProblem {
     },
 }
 
+impl From<NoMemory> for CurveError {
+    fn from(error: NoMemory) -> Self {
+        Self {
+            point: 0,
+            problem: CurveProblem::NoMemory(error),
+        }
+    }
+}
+
 /// An angle of a file, deg, in rad. The ends of the circle are exact.
 fn radians(degrees: f64) -> f64 {
     if degrees.abs() == 180.0 {
@@ -118,16 +133,17 @@ impl Curve {
     /// # Errors
     ///
     /// The first point that is wrong: angles must increase strictly from -180 to 180 deg, values
-    /// must be at most `MAX_COEFFICIENT` in magnitude, and drag must not be negative.
+    /// must be at most `MAX_COEFFICIENT` in magnitude, and drag must not be negative. More than
+    /// `MAX_POINTS` points, or no memory for them, are errors, too.
     pub fn try_from_degrees(
         coefficient: Coefficient,
         points: &[(f64, f64)],
     ) -> Result<Self, CurveError> {
         check(coefficient, points)?;
-        let alpha: Vec<f64> = points.iter().map(|p| radians(p.0)).collect();
-        let value: Vec<f64> = points.iter().map(|p| p.1).collect();
+        let alpha = collect(points.iter().map(|p| radians(p.0)), "the angles")?;
+        let value = collect(points.iter().map(|p| p.1), "the coefficients")?;
         let intervals = alpha.windows(2).zip(value.windows(2));
-        let slope = intervals.map(|(a, v)| slope(a, v)).collect();
+        let slope = collect(intervals.map(|(a, v)| slope(a, v)), "the slopes")?;
         let last = alpha.len() - 2;
         let interval = (0..PARTS).map(|part| {
             let begin = -PI + 2.0 * PI * part as f64 / PARTS as f64;
@@ -139,7 +155,7 @@ impl Curve {
             first_peak(points.iter().copied()).to_radians(),
         );
         Ok(Self {
-            interval: interval.collect(),
+            interval: collect(interval, "the index of the angles")?,
             alpha,
             value,
             slope,

@@ -275,7 +275,7 @@ impl Laws {
     ///
     /// There must be one or more, with strictly increasing Reynolds numbers from 1 to 1e10.
     pub fn try_new(law: Vec<Law>) -> Result<Self, LayersError> {
-        let numbers = law.iter().map(|l| l.reynolds).collect();
+        let numbers = law.iter().map(|l| l.reynolds);
         Ok(Self {
             layers: Layers::try_new(Axis::Reynolds, numbers)?,
             law,

@@ -1,7 +1,10 @@
 //! The Reynolds or Mach numbers for which a file has data, and where a flow lies among them.
 
 use super::Similarity;
-use crate::scalar::Scalar;
+use crate::{
+    scalar::Scalar,
+    text_file::{NoMemory, push},
+};
 use std::{fmt, ops::RangeInclusive};
 use thiserror::Error;
 
@@ -33,6 +36,10 @@ impl fmt::Display for Axis {
     }
 }
 
+/// Maximum number of Reynolds or Mach numbers of a table: the widest C81 tables have two digits of
+/// them.
+pub const MAX_LAYERS: usize = 999;
+
 /// Reynolds or Mach numbers: one or more, finite, strictly increasing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Layers {
@@ -58,6 +65,12 @@ pub enum LayersProblem {
     /// No numbers at all.
     #[error("there is no {0}; one or more are needed")]
     Empty(Axis),
+    /// More than `MAX_LAYERS`.
+    #[error("there are more than {MAX_LAYERS} {0}s; leave some out")]
+    TooMany(Axis),
+    /// There is no memory for the layers.
+    #[error(transparent)]
+    NoMemory(#[from] NoMemory),
     /// NaN, infinite, too small or too large.
     #[error("{axis} {number:?} must lie between {} and {}", axis.permitted().start(), axis.permitted().end())]
     OutOfRange {
@@ -78,43 +91,65 @@ pub enum LayersProblem {
     },
 }
 
+/// Refuses tables with more than `MAX_LAYERS` numbers: each is a curve with its own memory.
+pub fn check_count(axis: Axis, count: usize) -> Result<(), LayersProblem> {
+    if count > MAX_LAYERS {
+        return Err(LayersProblem::TooMany(axis));
+    }
+    Ok(())
+}
+
 impl Layers {
     /// Layers at the given numbers.
     ///
     /// # Errors
     ///
-    /// The first wrong number: there must be one or more, strictly increasing, Reynolds numbers
-    /// from 1 to 1e10 and Mach numbers from 0 to 10.
-    pub fn try_new(axis: Axis, number: Vec<f64>) -> Result<Self, LayersError> {
-        let fail = |layer: usize, problem: LayersProblem| Err(LayersError { layer, problem });
-        if number.is_empty() {
-            return fail(0, LayersProblem::Empty(axis));
-        }
-        let numbers = number;
-        let mut position: Vec<f64> = Vec::with_capacity(numbers.len());
-        for (layer, &number) in numbers.iter().enumerate() {
-            if !axis.permitted().contains(&number) {
-                return fail(layer, LayersProblem::OutOfRange { axis, number });
-            }
-            let next = match axis {
-                Axis::Reynolds => Scalar::ln(number),
-                Axis::Mach => number,
-            };
-            if position.last().is_some_and(|before| next <= *before) {
-                let problem = LayersProblem::NotIncreasing {
-                    axis,
-                    number,
-                    before: numbers[layer - 1],
-                };
-                return fail(layer, problem);
-            }
-            position.push(next);
-        }
-        Ok(Self {
+    /// The first wrong number: there must be one to `MAX_LAYERS`, strictly increasing, Reynolds
+    /// numbers from 1 to 1e10 and Mach numbers from 0 to 10.
+    pub fn try_new(
+        axis: Axis,
+        numbers: impl IntoIterator<Item = f64>,
+    ) -> Result<Self, LayersError> {
+        let mut layers = Self {
             axis,
-            number: numbers,
-            position,
-        })
+            number: Vec::new(),
+            position: Vec::new(),
+        };
+        for (layer, number) in numbers.into_iter().enumerate() {
+            layers
+                .add(number)
+                .map_err(|problem| LayersError { layer, problem })?;
+        }
+        if layers.number.is_empty() {
+            let problem = LayersProblem::Empty(axis);
+            return Err(LayersError { layer: 0, problem });
+        }
+        Ok(layers)
+    }
+
+    /// Adds the next number.
+    fn add(&mut self, number: f64) -> Result<(), LayersProblem> {
+        let axis = self.axis;
+        check_count(axis, self.number.len() + 1)?;
+        if !axis.permitted().contains(&number) {
+            return Err(LayersProblem::OutOfRange { axis, number });
+        }
+        let next = match axis {
+            Axis::Reynolds => Scalar::ln(number),
+            Axis::Mach => number,
+        };
+        if let Some((position, before)) = self.position.last().zip(self.number.last())
+            && next <= *position
+        {
+            return Err(LayersProblem::NotIncreasing {
+                axis,
+                number,
+                before: *before,
+            });
+        }
+        push(&mut self.number, number, "the layers")?;
+        push(&mut self.position, next, "the layers")?;
+        Ok(())
     }
 
     /// Number of layers, 1 or more.
@@ -228,6 +263,12 @@ mod tests {
                 vec![f64::NAN],
                 0,
                 "Mach number NaN must lie between 0 and 10",
+            ),
+            (
+                Axis::Reynolds,
+                (1..=1000).map(f64::from).collect(),
+                999,
+                "there are more than 999 Reynolds numbers; leave some out",
             ),
             (
                 Axis::Reynolds,

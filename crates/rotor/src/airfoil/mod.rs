@@ -19,7 +19,7 @@ mod table;
 
 pub use curve::{Coefficient, Curve, CurveError, CurveProblem};
 pub use layers::{Axis, Layers, LayersError, LayersProblem};
-pub use table::{Table, wrapped};
+pub use table::{Table, TableError, wrapped};
 
 use laws::{Laws, Line};
 use summary::Summary;
@@ -32,6 +32,9 @@ use super::{
 use core::f64::consts::PI;
 use std::path::Path;
 use thiserror::Error;
+
+/// Larger files are not section data: C81 tables with a hundred Mach numbers have 1 MB.
+const MAX_BYTES: u64 = 16 << 20;
 
 /// Lower Reynolds numbers count as this one in the drag correction, which was made for boundary
 /// layers and not for creeping flow.
@@ -165,7 +168,7 @@ impl Airfoil {
     /// As `read`.
     pub fn read_with_hash(path: &Path) -> Result<(Self, u64), AirfoilError> {
         let file = path.display().to_string();
-        match text_file::read(path) {
+        match text_file::read(path, MAX_BYTES) {
             Ok(TextFile { text, hash }) => {
                 let airfoil = (formats::detected(path, &text).parse)(&text, &file)?;
                 Ok((airfoil, hash))
@@ -409,5 +412,37 @@ mod tests {
         assert!((slope(1e6, 1.0) / law(1e6, 1.0) - 1.0).abs() < 1e-12);
         // Inside, both tables are alike.
         assert_eq!((slope(1e5, 1.0), slope(1e6, -1.0)), (0.0, 0.0));
+    }
+
+    #[test]
+    fn messages_quote_at_most_80_characters_of_a_file() {
+        let long = "y".repeat(1_000_000);
+        let polar = |text: String| polar::parse(&text, "f").map(|_| ());
+        let c81 = |text: String| c81::parse(&text, "f").map(|_| ());
+        let combi = |text: String| combi::parse(&text, "f").map(|_| ());
+        let errors = [
+            polar(long.clone()),
+            polar(format!("polar 1\n{long}")),
+            polar(format!("polar 1\nreynolds {long}")),
+            polar(format!("polar 1\nreynolds 1e5\n0 {long}")),
+            c81(long.clone()),
+            c81(format!("name 1 1 1 1\n{long}")),
+            c81(format!("name 1 1 1 1\n0\n-180 {long}")),
+            combi(format!("#1\n{long}")),
+            combi(format!("#1\n{long} {long}")),
+            combi(format!("#1\n1{long}")),
+            combi(format!("#1\ndouble {long}(1, 1)\n1\n")),
+            combi(format!("#1\ndouble {long}(1, 1)\n1{long}\n")),
+            combi(format!("#1\ndouble {long}(1, 1)\n1\n1{long}\n")),
+            combi(format!("#1\ndouble {long}(1, 1)\n1\ndouble b(1, 1)\n1\n")),
+        ];
+        for error in errors {
+            let error = error.unwrap_err().to_string();
+            let longest = error.split(|c| c != 'y').map(str::len).max();
+            assert!(longest <= Some(80) && error.len() < 400, "{error}");
+        }
+        let name = format!("polar 1\nname {long}\nreynolds 1\n-180 0 0\n180 0 0\n");
+        let airfoil = polar::parse(&name, "f").unwrap();
+        assert_eq!(airfoil.name().chars().count(), 80);
     }
 }

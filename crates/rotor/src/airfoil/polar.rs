@@ -14,10 +14,11 @@
 //! never negative. Interpolation is linear in angle and in ln Re.
 
 use super::{
-    Airfoil, AirfoilError, Axis, Data, Layers, Table,
-    curve::{Coefficient, Curve},
+    Airfoil, AirfoilError, Axis, Coefficient, Data, Layers, Table, TableError,
     formats::{Format, has_extension},
+    layers::check_count,
 };
+use crate::text_file::{excerpt, push};
 
 /// A file is in this format if its name ends in `.polar`.
 pub const FORMAT: Format = Format {
@@ -61,11 +62,16 @@ fn read(text: &str) -> Result<Airfoil, Problem> {
     for block in &blocks {
         block.check_complete()?;
     }
-    let numbers = blocks.iter().map(|block| block.reynolds).collect();
-    let layers = Layers::try_new(Axis::Reynolds, numbers)
-        .map_err(|error| (blocks[error.layer].line, error.to_string()))?;
     let table = |coefficient: Coefficient, column: fn(&Row) -> f64| {
-        Table::try_new(layers.clone(), |i| blocks[i].curve(coefficient, column))
+        let numbers = blocks.iter().map(|block| block.reynolds);
+        let layers = Layers::try_new(Axis::Reynolds, numbers)
+            .map_err(|error| (blocks[error.layer].line, error.to_string()))?;
+        let points = |i: usize| blocks[i].rows.iter().map(|row| (row.alpha, column(row)));
+        Table::try_new(layers, coefficient, points).map_err(|TableError { layer, error }| {
+            let block = &blocks[layer];
+            let row = block.rows.get(error.point);
+            (row.map_or(block.line, |row| row.line), error.to_string())
+        })
     };
     let data = Data::Tables {
         lift: table(Coefficient::Lift, |row| row.lift)?,
@@ -84,7 +90,10 @@ fn blocks(text: &str) -> Result<(String, Vec<Block>), Problem> {
     match lines.next() {
         Some((_, "polar 1")) => {}
         Some((line, found)) => {
-            let problem = format!("the file must begin with `polar 1`, not `{found}`");
+            let problem = format!(
+                "the file must begin with `polar 1`, not `{}`",
+                excerpt(found)
+            );
             return Err((line, problem));
         }
         None => {
@@ -101,16 +110,27 @@ fn blocks(text: &str) -> Result<(String, Vec<Block>), Problem> {
             .split_once(char::is_whitespace)
             .unwrap_or((content, ""));
         match (word, blocks.last_mut()) {
-            ("name", _) => name = rest.trim().to_owned(),
-            ("reynolds", _) => blocks.push(Block {
-                line,
-                reynolds: number(rest).map_err(|problem| (line, problem))?,
-                rows: Vec::new(),
-            }),
-            (_, Some(block)) => block.rows.push(row(line, content)?),
+            ("name", _) => name = excerpt(rest.trim()),
+            ("reynolds", _) => {
+                let block = Block {
+                    line,
+                    reynolds: number(rest).map_err(|problem| (line, problem))?,
+                    rows: Vec::new(),
+                };
+                check_count(Axis::Reynolds, blocks.len() + 1)
+                    .map_err(|problem| (line, problem.to_string()))?;
+                push(&mut blocks, block, "the blocks")
+                    .map_err(|problem| (line, problem.to_string()))?;
+            }
+            (_, Some(block)) => {
+                let row = row(line, content)?;
+                push(&mut block.rows, row, "the rows")
+                    .map_err(|problem| (line, problem.to_string()))?;
+            }
             (word, None) => {
                 let problem = format!(
-                    "`{word}` before the first `reynolds` line; only `name` may stand there"
+                    "`{}` before the first `reynolds` line; only `name` may stand there",
+                    excerpt(word)
                 );
                 return Err((line, problem));
             }
@@ -123,26 +143,27 @@ fn blocks(text: &str) -> Result<(String, Vec<Block>), Problem> {
 }
 
 fn row(line: usize, content: &str) -> Result<Row, Problem> {
-    let values = content
-        .split_whitespace()
-        .map(number)
-        .collect::<Result<Vec<f64>, String>>()
-        .map_err(|problem| (line, problem))?;
-    match values[..] {
-        [alpha, lift, drag] | [alpha, lift, drag, _] => Ok(Row {
-            line,
-            alpha,
-            lift,
-            drag,
-        }),
-        _ => {
-            let problem = format!(
-                "a row has 3 or 4 numbers (angle, lift, drag, moment), this one has {}",
-                values.len()
-            );
-            Err((line, problem))
+    let mut values = [0.0; 4];
+    let mut count = 0;
+    for word in content.split_whitespace() {
+        let value = number(word).map_err(|problem| (line, problem))?;
+        if let Some(place) = values.get_mut(count) {
+            *place = value;
         }
+        count += 1;
     }
+    if !(3..=values.len()).contains(&count) {
+        let problem =
+            format!("a row has 3 or 4 numbers (angle, lift, drag, moment), this one has {count}");
+        return Err((line, problem));
+    }
+    let [alpha, lift, drag, _] = values;
+    Ok(Row {
+        line,
+        alpha,
+        lift,
+        drag,
+    })
 }
 
 impl Block {
@@ -162,20 +183,12 @@ impl Block {
         }
         Ok(())
     }
-
-    fn curve(&self, coefficient: Coefficient, column: fn(&Row) -> f64) -> Result<Curve, Problem> {
-        let points: Vec<(f64, f64)> = self.rows.iter().map(|r| (r.alpha, column(r))).collect();
-        Curve::try_from_degrees(coefficient, &points).map_err(|error| {
-            let line = self.rows.get(error.point).map_or(self.line, |row| row.line);
-            (line, error.to_string())
-        })
-    }
 }
 
 /// A finite number, which `nan` and `inf` are not.
 fn number(text: &str) -> Result<f64, String> {
     let value: Option<f64> = text.trim().parse().ok().filter(|v: &f64| v.is_finite());
-    value.ok_or_else(|| format!("`{}` is not a number", text.trim()))
+    value.ok_or_else(|| format!("`{}` is not a number", excerpt(text.trim())))
 }
 
 #[cfg(test)]
@@ -243,6 +256,21 @@ mod tests {
                 .unwrap_err()
                 .to_string()
                 .contains("the file is empty")
+        );
+    }
+
+    /// Each block is two curves of 2 kB: without a limit a file of 4 MB would take 400 MB.
+    #[test]
+    fn up_to_999_reynolds_numbers_are_read() {
+        let text = |count: u32| {
+            let block = |re: u32| format!("reynolds {re}\n-180 0 0\n180 0 0\n");
+            "polar 1\n".to_owned() + &(1..=count).map(block).collect::<String>()
+        };
+        assert!(parse(&text(999), "many.polar").is_ok());
+        let error = parse(&text(1000), "many.polar").unwrap_err().to_string();
+        assert_eq!(
+            error,
+            "airfoil file many.polar, line 2999: there are more than 999 Reynolds numbers; leave some out"
         );
     }
 }

@@ -4,6 +4,9 @@
 //! In columns, numbers may touch each other, and an empty column before the end of the line is 0.
 //! Free numbers stand between blanks, tabs, commas or semicolons. A D may begin an exponent.
 
+use crate::text_file::{excerpt, push};
+use std::{iter::Enumerate, str::Lines};
+
 /// Characters of a column.
 const WIDTH: usize = 7;
 /// Maximum number of values in a line, besides the angle.
@@ -24,11 +27,12 @@ pub struct Number {
 pub type Problem = (usize, usize, String);
 
 /// The lines of a text that are not blank, read one after the other.
+#[derive(Clone)]
 pub struct Records<'a> {
-    /// With their numbers from 1.
-    lines: Vec<(usize, &'a str)>,
-    /// Index of the next line.
-    next: usize,
+    /// The lines to come.
+    lines: Enumerate<Lines<'a>>,
+    /// Number of the last line that was read, from 1.
+    last: usize,
 }
 
 /// The contents of a record: an angle or nothing, then `values` numbers.
@@ -45,21 +49,19 @@ pub struct Layout<'a> {
 impl<'a> Records<'a> {
     /// The records of a text.
     pub fn new(text: &'a str) -> Self {
-        let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line));
         Self {
-            lines: lines.filter(|(_, line)| !line.trim().is_empty()).collect(),
-            next: 0,
+            lines: text.lines().enumerate(),
+            last: 1,
         }
     }
 
     /// The next line with its number, from 1. At the end of the file the error names `wanted`.
     pub fn line(&mut self, wanted: &str) -> Result<(usize, &'a str), Problem> {
-        let Some(line) = self.lines.get(self.next) else {
-            let last = self.lines.last().map_or(1, |(number, _)| *number);
-            return Err((last, 1, format!("the file ends before {wanted}")));
+        let Some((index, line)) = self.lines.find(|(_, line)| !line.trim().is_empty()) else {
+            return Err((self.last, 1, format!("the file ends before {wanted}")));
         };
-        self.next += 1;
-        Ok(*line)
+        self.last = index + 1;
+        Ok((self.last, line))
     }
 
     /// The numbers of the next record: the angle, if it has one, and the values. Never empty.
@@ -68,11 +70,11 @@ impl<'a> Records<'a> {
     ///
     /// A word that is not a number, too few or too many numbers, or the end of the file.
     pub fn numbers(&mut self, layout: Layout) -> Result<Vec<Number>, Problem> {
-        let begin = self.next;
+        let begin = self.clone();
         if let Some(numbers) = self.in_columns(layout)? {
             return Ok(numbers);
         }
-        self.next = begin;
+        *self = begin;
         self.free(layout)
     }
 
@@ -87,7 +89,9 @@ impl<'a> Records<'a> {
             let Some(found) = columns(number, line, has_angle, here) else {
                 return Ok(None);
             };
-            numbers.extend(found);
+            for value in found {
+                keep(&mut numbers, value)?;
+            }
             missing -= here;
             has_angle = false;
         }
@@ -97,27 +101,33 @@ impl<'a> Records<'a> {
     fn free(&mut self, layout: Layout) -> Result<Vec<Number>, Problem> {
         let wanted = layout.values + usize::from(layout.has_angle);
         let mut numbers = Vec::new();
-        while numbers.len() < wanted {
+        // Also of those that are too many.
+        let mut count = 0;
+        while count < wanted {
             let (line, text) = self.line(layout.what)?;
             for (column, word) in words(text) {
                 let Some(value) = number(word) else {
                     let problem = format!(
-                        "`{word}` is not a number; {} is expected, in columns of seven characters or between blanks",
+                        "`{}` is not a number; {} is expected, in columns of seven characters or between blanks",
+                        excerpt(word),
                         layout.what
                     );
                     return Err((line, column, problem));
                 };
-                numbers.push(Number {
-                    value,
-                    line,
-                    column,
-                });
+                count += 1;
+                if count <= wanted {
+                    let number = Number {
+                        value,
+                        line,
+                        column,
+                    };
+                    keep(&mut numbers, number)?;
+                }
             }
-            let is_short = numbers.len() < wanted && layout.values <= VALUES_PER_LINE;
-            if is_short || numbers.len() > wanted {
+            let is_short = count < wanted && layout.values <= VALUES_PER_LINE;
+            if is_short || count > wanted {
                 let problem = format!(
-                    "{wanted} numbers are expected here, not {}; {} is missing or one is too many: correct the line, or the counts in the first line",
-                    numbers.len(),
+                    "{wanted} numbers are expected here, not {count}; {} is missing or one is too many: correct the line, or the counts in the first line",
                     layout.what
                 );
                 return Err((line, 1, problem));
@@ -127,12 +137,20 @@ impl<'a> Records<'a> {
     }
 }
 
+/// Adds a number to a record.
+fn keep(numbers: &mut Vec<Number>, number: Number) -> Result<(), Problem> {
+    push(numbers, number, "the numbers of the table")
+        .map_err(|error| (number.line, number.column, error.to_string()))
+}
+
 /// The numbers of a line in columns, or None if it does not keep to them.
 fn columns(number: usize, line: &str, has_angle: bool, values: usize) -> Option<Vec<Number>> {
     if line.contains('\t') {
         return None;
     }
-    let text: Vec<char> = line.trim_end().chars().collect();
+    let end = (values + 1) * WIDTH;
+    // One more tells that the line is too long.
+    let text: Vec<char> = line.trim_end().chars().take(end + 1).collect();
     let mut numbers = Vec::new();
     for place in 0..=values {
         // In a line that ends before the column a number is missing, not blank.
@@ -157,7 +175,6 @@ fn columns(number: usize, line: &str, has_angle: bool, values: usize) -> Option<
             column: place * WIDTH + 1 + if is_blank { 0 } else { before },
         });
     }
-    let end = (values + 1) * WIDTH;
     text.len().le(&end).then_some(numbers)
 }
 

@@ -1,8 +1,16 @@
 //! One coefficient over angle of attack and, in layers, over Reynolds or Mach number.
 
-use super::{Similarity, curve::Curve, layers::Layers};
-use crate::scalar::Scalar;
+use super::{
+    Similarity,
+    curve::{Coefficient, Curve, CurveError},
+    layers::Layers,
+};
+use crate::{
+    scalar::Scalar,
+    text_file::{collect, push},
+};
 use core::f64::consts::PI;
+use thiserror::Error;
 
 /// One curve for each Reynolds or Mach number.
 ///
@@ -13,20 +21,40 @@ pub struct Table {
     curve: Vec<Curve>,
 }
 
+/// Why points do not make a table.
+#[derive(Debug, Error, Clone, Copy, PartialEq)]
+#[error("{error}")]
+pub struct TableError {
+    /// Index of the first layer without a curve.
+    pub layer: usize,
+    /// What is wrong with its points.
+    pub error: CurveError,
+}
+
 impl Table {
-    /// A table with the curve that `curve_of` gives for each layer, by its index.
+    /// A table with the points (angle of attack in deg, coefficient) that `points_of` gives for
+    /// each layer, by its index.
     ///
     /// # Errors
     ///
-    /// The first error of `curve_of`.
-    pub fn try_new<E>(
+    /// The first layer whose points make no curve.
+    pub fn try_new<P: Iterator<Item = (f64, f64)>>(
         layers: Layers,
-        curve_of: impl FnMut(usize) -> Result<Curve, E>,
-    ) -> Result<Self, E> {
-        let curve = (0..layers.count())
-            .map(curve_of)
-            .collect::<Result<_, E>>()?;
-        Ok(Self { layers, curve })
+        coefficient: Coefficient,
+        points_of: impl Fn(usize) -> P,
+    ) -> Result<Self, TableError> {
+        let mut curves = Vec::new();
+        for layer in 0..layers.count() {
+            collect(points_of(layer), "the points")
+                .map_err(CurveError::from)
+                .and_then(|points| Curve::try_from_degrees(coefficient, &points))
+                .and_then(|curve| Ok(push(&mut curves, curve, "the curves")?))
+                .map_err(|error| TableError { layer, error })?;
+        }
+        Ok(Self {
+            layers,
+            curve: curves,
+        })
     }
 
     /// The Reynolds or Mach numbers of the curves.
@@ -73,15 +101,11 @@ pub fn wrapped<S: Scalar>(alpha: S) -> S {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::airfoil::{Axis, curve::Coefficient};
-
-    fn curve(points: &[(f64, f64)]) -> Curve {
-        Curve::try_from_degrees(Coefficient::Lift, points).unwrap()
-    }
+    use crate::airfoil::Axis;
 
     fn table() -> Table {
         let scaled = |scale: f64| {
-            curve(&[
+            [
                 (-180.0, 0.0),
                 (-10.0, -scale),
                 (0.0, 0.0),
@@ -89,10 +113,11 @@ mod tests {
                 (14.0, 0.9 * scale),
                 (20.0, 1.5 * scale),
                 (180.0, 0.0),
-            ])
+            ]
         };
-        let layers = Layers::try_new(Axis::Reynolds, vec![1e5, 1e6]).unwrap();
-        Table::try_new(layers, |i| Ok::<_, ()>(scaled([1.0, 2.0][i]))).unwrap()
+        let layers = Layers::try_new(Axis::Reynolds, [1e5, 1e6]).unwrap();
+        let points = |i: usize| scaled([1.0, 2.0][i]).into_iter();
+        Table::try_new(layers, Coefficient::Lift, points).unwrap()
     }
 
     fn at(alpha_deg: f64, reynolds: f64) -> f64 {
@@ -139,9 +164,9 @@ mod tests {
         let (negative, positive) = table().stall_angles(flow);
         assert!((positive.to_degrees() - 10.0).abs() < 1e-12);
         assert!((negative.to_degrees() + 10.0).abs() < 1e-12);
-        let circle = curve(&[(-180.0, 0.0), (0.0, 0.0), (180.0, 0.0)]);
-        let layers = Layers::try_new(Axis::Reynolds, vec![1e5]).unwrap();
-        let circle = Table::try_new(layers, |_| Ok::<_, ()>(circle.clone())).unwrap();
+        let circle = |_| [(-180.0, 0.0), (0.0, 0.0), (180.0, 0.0)].into_iter();
+        let layers = Layers::try_new(Axis::Reynolds, [1e5]).unwrap();
+        let circle = Table::try_new(layers, Coefficient::Lift, circle).unwrap();
         assert_eq!(circle.stall_angles(flow), (-PI, PI), "no lift, no stall");
     }
 }

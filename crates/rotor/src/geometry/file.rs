@@ -18,10 +18,22 @@
 //! standard airfoil.
 
 use super::{BladeInertia, Geometry, GeometryError, Rotation, Station};
-use crate::text_file::{self, TextFile};
+use crate::text_file::{self, TextFile, excerpt};
 use serde::Deserialize;
 use std::path::Path;
 use thiserror::Error;
+
+/// Larger files are no rotors: `MAX_STATIONS` stations have 100 kB.
+const MAX_BYTES: u64 = 256 << 10;
+
+/// Maximum number of stations.
+const MAX_STATIONS: usize = 1000;
+
+/// Maximum number of airfoil files. Each is read into memory.
+const MAX_AIRFOILS: usize = 100;
+
+/// Maximum number of characters of an airfoil's path: more than any system takes.
+const MAX_PATH: usize = 4096;
 
 /// What is wrong with a rotor file, and where.
 #[derive(Debug, Error, Clone, PartialEq)]
@@ -119,7 +131,7 @@ impl Geometry {
     /// As `read`.
     pub fn read_with_hash(path: &Path) -> Result<(Self, u64), RotorFileError> {
         let file = path.display().to_string();
-        match text_file::read(path) {
+        match text_file::read(path, MAX_BYTES) {
             Ok(TextFile { text, hash }) => Ok((parse(&text, &file)?, hash)),
             Err(reason) => Err(RotorFileError::Unreadable { file, reason }),
         }
@@ -134,7 +146,7 @@ fn parse(text: &str, file: &str) -> Result<Geometry, RotorFileError> {
             file: file.to_owned(),
             line: before.matches('\n').count() + 1,
             column: before[line_start..].chars().count() + 1,
-            problem: error.message().trim().replace('\n', ", "),
+            problem: without_long_quotes(&error.message().trim().replace('\n', ", ")),
         }
     })?;
 
@@ -148,6 +160,13 @@ fn parse(text: &str, file: &str) -> Result<Geometry, RotorFileError> {
         .transpose()
         .map_err(shape)?;
 
+    if rotor.station.len() > MAX_STATIONS {
+        let problem = format!(
+            "there are {} stations; leave some out, so that there are {MAX_STATIONS} or fewer",
+            rotor.station.len()
+        );
+        return Err(shape(GeometryError(problem)));
+    }
     let mut airfoils: Vec<String> = Vec::new();
     let mut stations = Vec::with_capacity(rotor.station.len());
     for station in rotor.station {
@@ -163,6 +182,7 @@ fn parse(text: &str, file: &str) -> Result<Geometry, RotorFileError> {
             airfoil,
         });
     }
+    check_airfoils(&airfoils).map_err(shape)?;
     let mut geometry = Geometry {
         blades: rotor.number_of_blades,
         radius: rotor.radius,
@@ -179,6 +199,30 @@ fn parse(text: &str, file: &str) -> Result<Geometry, RotorFileError> {
     geometry.check().map_err(shape)?;
     geometry.tip_chord = largest_outer_chord(&geometry);
     Ok(geometry)
+}
+
+/// A message of the parser. It may quote the file, and then ends in what was expected there.
+fn without_long_quotes(message: &str) -> String {
+    match message.rfind(", expected ") {
+        Some(end) => excerpt(&message[..end]) + &message[end..],
+        None => excerpt(message),
+    }
+}
+
+fn check_airfoils(airfoils: &[String]) -> Result<(), GeometryError> {
+    if airfoils.len() > MAX_AIRFOILS {
+        return Err(GeometryError(format!(
+            "the stations have {} different airfoils; give them {MAX_AIRFOILS} or fewer",
+            airfoils.len()
+        )));
+    }
+    match airfoils.iter().find(|a| a.chars().count() > MAX_PATH) {
+        None => Ok(()),
+        Some(long) => Err(GeometryError(format!(
+            "the airfoil `{}` of a station has more than {MAX_PATH} characters; shorten it",
+            excerpt(long)
+        ))),
+    }
 }
 
 /// The inertia of the blades, from exactly one of the two numbers.
@@ -303,6 +347,59 @@ station = [
                 .unwrap_err()
                 .to_string();
             assert!(error.contains(part), "{to}: {error}");
+        }
+    }
+
+    /// A rotor with stations of these airfoils, and one more at the tip.
+    fn with_airfoils(names: impl ExactSizeIterator<Item = String>) -> String {
+        let count = names.len() as f64;
+        let station = |(i, name): (usize, String)| {
+            let r = 0.2 + 0.7 * i as f64 / count;
+            format!("{{ r = {r}, chord = 0.1, airfoil = \"{name}\" }},\n")
+        };
+        let stations: String = names.enumerate().map(station).collect();
+        format!(
+            "numberOfBlades = 2\nradius = 1\nstation = [\n{stations}{{ r = 1.0, chord = 0.1 }},\n]\n"
+        )
+    }
+
+    #[test]
+    fn what_a_file_may_demand_of_memory_is_limited() {
+        let read = |text: String| parse(&text, "x.toml").map_err(|error| error.to_string());
+        let error = |text: String| read(text).unwrap_err();
+        let stations = |count: usize| with_airfoils((0..count).map(|_| String::new()));
+        assert_eq!(read(stations(999)).unwrap().stations.len(), 1000);
+        assert!(error(stations(1000)).contains("there are 1001 stations; leave some out"));
+        let airfoils = |count: usize| with_airfoils((0..count).map(|i| i.to_string()));
+        assert_eq!(read(airfoils(99)).unwrap().airfoils.len(), 100);
+        assert!(error(airfoils(100)).contains("101 different airfoils; give them 100 or fewer"));
+        let path = |length: usize| with_airfoils(["a".repeat(length)].into_iter());
+        assert!(read(path(4096)).is_ok());
+        let long = error(path(4097));
+        assert!(
+            long.contains("has more than 4096 characters") && long.len() < 300,
+            "{long}"
+        );
+    }
+
+    #[test]
+    fn messages_quote_at_most_80_characters_of_the_file() {
+        let long = "x, expected ".repeat(10_000);
+        for (from, to, part) in [
+            ("radius", format!("\"{long}\""), ", expected one of `name`"),
+            ("1.5", format!("\"{long}\""), ", expected f64"),
+            ("radius", "x".repeat(100_000), ", expected one of `name`"),
+            (
+                "name",
+                format!("rotation = \"{long}\"\nname"),
+                ", expected `counterClockwise`",
+            ),
+            ("1.5", "1".repeat(100_000), "line 3, column 10"),
+        ] {
+            let text = GOOD.replacen(from, &to, 1);
+            let error = parse(&text, "bad.toml").unwrap_err().to_string();
+            assert!(error.contains(part) && error.len() < 350, "{error}");
+            assert!(error.matches('x').count() <= 90, "{error}");
         }
     }
 }

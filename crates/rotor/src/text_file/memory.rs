@@ -1,0 +1,48 @@
+//! Vectors whose length a file decides. Where the memory for one is missing, the reader says so;
+//! the vectors of the standard library would end the importer's process.
+//!
+//! Vectors with a constant limit of a few kB do without.
+
+use thiserror::Error;
+
+/// The memory for something is missing.
+#[derive(Debug, Error, Clone, Copy, PartialEq, Eq)]
+#[error("there is not enough memory for {0}")]
+pub struct NoMemory(pub &'static str);
+
+/// Adds an item to the vector of `what`.
+pub fn push<T>(vector: &mut Vec<T>, item: T, what: &'static str) -> Result<(), NoMemory> {
+    vector.try_reserve(1).map_err(|_| NoMemory(what))?;
+    vector.push(item);
+    Ok(())
+}
+
+/// The vector of `what` with these items.
+pub fn collect<T>(items: impl Iterator<Item = T>, what: &'static str) -> Result<Vec<T>, NoMemory> {
+    let mut vector = Vec::new();
+    let expected = items.size_hint().0;
+    vector
+        .try_reserve_exact(expected)
+        .map_err(|_| NoMemory(what))?;
+    for item in items {
+        push(&mut vector, item, what)?;
+    }
+    Ok(vector)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn items_are_kept_in_order_and_too_many_are_refused_in_words() {
+        let mut vector = collect(0..3, "the numbers").unwrap();
+        push(&mut vector, 3, "the numbers").unwrap();
+        assert_eq!(vector, [0, 1, 2, 3]);
+        let error = collect(0..usize::MAX, "the numbers").unwrap_err();
+        assert_eq!(
+            error.to_string(),
+            "there is not enough memory for the numbers"
+        );
+    }
+}
