@@ -9,7 +9,7 @@ use super::{
     types::*,
 };
 use crate::block::variables::LOG_CATEGORIES;
-use std::ffi::CString;
+use std::{borrow::Cow, ffi::CString};
 
 /// The log categories, in the order in which modelDescription.xml declares them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,6 +29,9 @@ impl Category {
         }
     }
 }
+
+/// Maximum number of characters of a message.
+const MAX_MESSAGE: usize = 500;
 
 /// The importer's logger as copied at instantiation.
 ///
@@ -55,7 +58,7 @@ impl Logger {
         };
         let category = printable(LOG_CATEGORIES[category as usize]);
         // The message is the format of a printf.
-        let message = printable(&message.trim_end().replace('%', "%%"));
+        let message = printable(&limited(message.trim_end()).replace('%', "%%"));
         // SAFETY: the importer's function, with the arguments that the standard demands. The
         // strings live until it returns.
         unsafe {
@@ -68,6 +71,19 @@ impl Logger {
             );
         }
     }
+}
+
+/// A message of at most `MAX_MESSAGE` characters. A longer one names a very long path: its
+/// beginning says where that comes from, and its end what to do, so that the middle is left out.
+fn limited(message: &str) -> Cow<'_, str> {
+    if message.chars().nth(MAX_MESSAGE).is_none() {
+        return message.into();
+    }
+    let half = MAX_MESSAGE / 2;
+    let begin = message.chars().take(half);
+    let mut end: Vec<char> = message.chars().rev().take(MAX_MESSAGE - half - 1).collect();
+    end.reverse();
+    begin.chain(['…']).chain(end).collect::<String>().into()
 }
 
 /// A C string. A NUL inside the text, which C would take for its end, becomes a blank.
@@ -109,4 +125,23 @@ pub unsafe extern "C" fn fmi2SetDebugLogging(
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2SetDebugLogging, body) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_message_keeps_its_beginning_and_its_end() {
+        for length in [0, 1, 499, 500] {
+            let message = "ü".repeat(length);
+            assert_eq!(limited(&message), message);
+        }
+        for length in [492, 1_000_000] {
+            let message = format!("begin{}end.", "ü".repeat(length));
+            let expected = format!("begin{}…{}end.", "ü".repeat(245), "ü".repeat(245));
+            assert_eq!(expected.chars().count(), MAX_MESSAGE);
+            assert_eq!(limited(&message), expected);
+        }
+    }
 }

@@ -17,6 +17,7 @@ mod files;
 mod float_environment;
 mod fmu_state;
 mod get_set;
+mod hostile_files;
 mod input_derivatives;
 mod legality;
 mod life_cycle;
