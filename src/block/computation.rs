@@ -15,13 +15,38 @@ use super::{
     values::Values,
     variables::{Causality, FlowState, REALS, integer, real},
 };
-use rotor::{Rotor, SolveError, Work};
-use std::sync::Arc;
+use crate::host::memory::Watch;
+use rotor::{Rotor, SolveError, Work, Workspace};
+use std::{path::Path, sync::Arc};
 
 /// The warning where the search for a steady start fails.
 const NO_STEADY_START: &str = "no state was found in which inflow and flapping repeat themselves; the simulation starts from \
      the inflow of momentum theory with the blades at rest, and settles by itself (set initialization to rest to \
      start without inflow and without this search)";
+
+/// A rotor with the memory that it needs, and the files from which it was made.
+pub(super) struct MadeRotor {
+    rotor: Arc<Rotor>,
+    workspace: Workspace,
+    files: Vec<ReadFile>,
+}
+
+impl MadeRotor {
+    /// The rotor of these parameters.
+    pub(super) fn of(values: &Values, resources: &Path) -> Result<Self, BlockError> {
+        let watch = Watch::begin();
+        let (rotor, files) = setup::rotor(values, resources)?;
+        let made = Self {
+            workspace: Workspace::new(&rotor),
+            rotor: Arc::new(rotor),
+            files,
+        };
+        if watch.is_short() {
+            return Err(BlockError::NoMemory);
+        }
+        Ok(made)
+    }
+}
 
 impl RotorBlock {
     /// Ends the configuration, after which fixed parameters cannot change. Warns of implausible
@@ -47,6 +72,7 @@ impl RotorBlock {
         if self.fresh == Fresh::All {
             return Ok(());
         }
+        let watch = Watch::begin();
         let condition = FlightCondition::new(&self.values)?;
         let memory = match self.stage {
             Stage::Running | Stage::Integrating => self.memory,
@@ -64,7 +90,13 @@ impl RotorBlock {
             }
         };
         self.workspace.work = self.budget();
-        self.publish(&condition, memory)
+        self.publish(&condition, memory)?;
+        if self.stage == Stage::Configuring && watch.is_short() {
+            self.forget_rotor();
+            self.fresh = Fresh::Nothing;
+            return Err(BlockError::NoMemory);
+        }
+        Ok(())
     }
 
     /// Warns once if the start has no steady or periodic state.
@@ -80,23 +112,29 @@ impl RotorBlock {
         if let Some(rotor) = &self.rotor {
             return Ok(Arc::clone(rotor));
         }
-        let (rotor, files) = setup::rotor(&self.values, &self.resources)?;
+        let made = MadeRotor::of(&self.values, &self.resources)?;
         let unused = setup::unused_lock_number(&self.values);
         self.notes.extend(unused.map(Note::Warning));
-        Ok(self.take_over(rotor, files))
+        Ok(self.take_over(made))
     }
 
-    /// Stores a rotor that was just made, and the files from which it was. Warns of files that are
-    /// not those of the state that was restored before.
-    pub(super) fn take_over(&mut self, rotor: Rotor, files: Vec<ReadFile>) -> Arc<Rotor> {
+    /// Stores a rotor that was just made. Warns of files that are not those of the state that was
+    /// restored before.
+    pub(super) fn take_over(&mut self, made: MadeRotor) -> Arc<Rotor> {
+        let MadeRotor {
+            rotor,
+            workspace,
+            files,
+        } = made;
         let notes = files.iter().map(|file| Note::Event(file.note()));
         self.notes.extend(notes);
         self.files = files;
+        self.workspace = workspace;
         let saved = std::mem::take(&mut self.saved_files);
         self.compare_files(&saved);
         self.outside_data = OutsideDataNotice::default();
         self.beyond_stops = BeyondStopsNotice::default();
-        Arc::clone(self.rotor.insert(Arc::new(rotor)))
+        Arc::clone(self.rotor.insert(rotor))
     }
 
     /// Warns of files of the rotor whose content differs from that in a saved state.

@@ -11,8 +11,9 @@ use super::{
     values::ValueError,
     variables::{Causality, RealRef, STATES, real},
 };
+use crate::host::memory::Watch;
 use num_dual::Dual64;
-use rotor::{OperatingPoint, Rotor, SolveError, State};
+use rotor::{OperatingPoint, Rotor, SolveError, State, Workspace};
 use thiserror::Error;
 
 /// Why a derivative was not computed.
@@ -120,6 +121,14 @@ impl RotorBlock {
         let condition =
             FlightCondition::with_reals(&self.values, reals).map_err(BlockError::from)?;
         let rotor = self.rotor()?;
+        let watch = Watch::begin();
+        if self.dual_workspace.is_empty() {
+            self.dual_workspace = Workspace::new(&rotor);
+            if watch.is_short() {
+                self.dual_workspace = Workspace::default();
+                return Err(BlockError::NoMemory.into());
+            }
+        }
         self.dual_workspace.work = self.budget();
         let state = self.state_along(&rotor, &condition.point, reals)?;
         let response = rotor

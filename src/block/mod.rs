@@ -50,6 +50,7 @@ pub use setup::SetupError;
 pub use snapshot::{Contradiction, Snapshot};
 pub use values::{Stage, ValueError, Values};
 
+use crate::host::memory::NO_MEMORY;
 use beyond_stops::BeyondStopsNotice;
 use files::{FileHash, ReadFile};
 use integrate::Memory;
@@ -69,6 +70,8 @@ use variables::integer;
 pub enum BlockError {
     #[error(transparent)]
     Setup(#[from] SetupError),
+    #[error("{NO_MEMORY}")]
+    NoMemory,
     #[error("{0}; check the inputs: {1}")]
     Unsolved(SolveError, String),
     #[error(

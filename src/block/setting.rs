@@ -8,6 +8,8 @@ use super::{
     state_vector::read_states,
     variables::{BooleanRef, Causality, IntegerRef, RealRef, StringRef, string},
 };
+use crate::host::memory::Watch;
+use rotor::Workspace;
 
 impl RotorBlock {
     /// Sets Real variables. If one value is refused, none is set. Inputs are limited to their
@@ -77,6 +79,7 @@ impl RotorBlock {
         names: &[impl Names<StringRef>],
         values: &[&str],
     ) -> Result<(), SetStringsError> {
+        let watch = Watch::begin();
         let mut changed = self.values.clone();
         for (name, value) in names.iter().zip(values) {
             let reference = name.reference()?;
@@ -84,6 +87,9 @@ impl RotorBlock {
             if reference == string::SETTINGS && self.stage == Stage::Configuring {
                 settings::assign(&mut changed, value)?;
             }
+        }
+        if watch.is_short() {
+            return Err(ValueError::NoMemory.into());
         }
         self.values = changed;
         self.invalidate(self.stage == Stage::Configuring);
@@ -99,8 +105,10 @@ impl RotorBlock {
     /// The rotor is made again when it is needed, from the files as they are then.
     pub(super) fn forget_rotor(&mut self) {
         self.rotor = None;
-        self.files.clear();
-        self.saved_files.clear();
+        self.workspace = Workspace::default();
+        self.dual_workspace = Workspace::default();
+        self.files = Vec::new();
+        self.saved_files = Vec::new();
     }
 
     fn invalidate(&mut self, rotor_changes: bool) {

@@ -2,14 +2,15 @@
 
 use super::{
     BlockError, Fresh, RotorBlock,
+    computation::MadeRotor,
     files::FileHash,
     integrate::{LONGEST_CELL, Memory, Since, Step},
     ramp::Slopes,
-    setup,
     state_vector::{from_vector, read_states, to_vector, write_states},
-    values::{Stage, Values},
+    values::{MAX_TEXT, Stage, Values},
     variables::{Causality, INTEGERS, REALS, STRINGS, integer},
 };
+use crate::host::memory::Watch;
 use nalgebra::Vector3;
 use rotor::{Drive, OperatingPoint, State, air::Air};
 use serde::{Deserialize, Serialize};
@@ -67,24 +68,32 @@ impl RotorBlock {
     /// legal, and a user may have improved the file on purpose. But without a word the simulation
     /// would continue with other loads.
     pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), BlockError> {
+        let watch = Watch::begin();
         let is_same = have_equal_shape(&self.values, &snapshot.values);
-        if snapshot.stage == Stage::Configuring {
-            // As before initialisation, the rotor is built when it is needed.
-            if !is_same {
-                self.forget_rotor();
-            }
-        } else if !is_same || self.rotor.is_none() {
-            let (rotor, files) = setup::rotor(&snapshot.values, &self.resources)?;
+        let (values, files) = (snapshot.values.clone(), snapshot.files.clone());
+        let is_configuring = snapshot.stage == Stage::Configuring;
+        let made = if is_configuring || (is_same && self.rotor.is_some()) {
+            None
+        } else {
+            Some(MadeRotor::of(&values, &self.resources)?)
+        };
+        if watch.is_short() {
+            return Err(BlockError::NoMemory);
+        }
+        if let Some(made) = made {
             // Those of a state that was restored before this one do not count.
             self.saved_files.clear();
-            self.take_over(rotor, files);
+            self.take_over(made);
+        } else if is_configuring && !is_same {
+            // As before initialisation, the rotor is built when it is needed.
+            self.forget_rotor();
         }
         if self.rotor.is_some() {
             self.compare_files(&snapshot.files);
         } else {
-            self.saved_files.clone_from(&snapshot.files);
+            self.saved_files = files;
         }
-        self.values.clone_from(&snapshot.values);
+        self.values = values;
         self.stage = snapshot.stage;
         self.ramp.slopes = snapshot.slopes;
         self.ramp.past = snapshot.past_slopes;
@@ -145,7 +154,7 @@ impl Snapshot {
             return wrong(flow.name);
         }
         for (variable, text) in STRINGS.iter().zip(&self.values.strings) {
-            if text.contains('\0') {
+            if text.contains('\0') || text.len() > MAX_TEXT {
                 return wrong(variable.name);
             }
         }

@@ -10,8 +10,12 @@ use super::{
     shown::shown,
     variables::{BOOLEANS, Causality, INTEGERS, REALS, STATES, STRINGS, Variable},
 };
+use crate::host::memory::NO_MEMORY;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
+
+/// Bytes of the longest text of a String variable.
+pub const MAX_TEXT: usize = 1 << 16;
 
 /// Why a value was not read or set. Nothing has changed.
 #[derive(Debug, Error, Clone, PartialEq)]
@@ -62,6 +66,12 @@ pub enum ValueError {
     NotInput { name: &'static str },
     #[error("the derivative {value} of {name} is not a finite number; set a finite one")]
     SlopeNotFinite { name: &'static str, value: f64 },
+    #[error(
+        "{name} would have {length} bytes, more than {MAX_TEXT}; set a shorter text (it keeps its own)"
+    )]
+    TooLong { name: &'static str, length: usize },
+    #[error("{NO_MEMORY}")]
+    NoMemory,
     #[error("{given} continuous states were passed, but this FMU has {}", STATES.len())]
     StateCount { given: usize },
 }
@@ -286,6 +296,10 @@ impl Values {
             let variable = reference.variable();
             let kept = &self.strings[reference];
             may_set(variable, stage, value != kept, || format!("{kept:?}"))?;
+            if value.len() > MAX_TEXT {
+                let (name, length) = (variable.name, value.len());
+                return Err(ValueError::TooLong { name, length });
+            }
         }
         for (name, value) in names.iter().zip(values) {
             (*value).clone_into(&mut self.strings[name.reference()?]);

@@ -16,6 +16,10 @@ use crate::block::{
     PerVariable, RotorBlock,
     variables::{GUID, MODEL_IDENTIFIER},
 };
+use crate::host::{
+    float_environment::in_default_environment,
+    memory::{NO_MEMORY, Watch},
+};
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
     ptr,
@@ -35,7 +39,8 @@ pub unsafe extern "C" fn fmi2Instantiate(
     loggingOn: fmi2Boolean,
 ) -> fmi2Component {
     keep_panics_silent();
-    let body = || {
+    let watch = Watch::begin();
+    let make = || {
         // SAFETY: passed on from the caller. It is copied, whatever its alignment.
         let callbacks = (!functions.is_null()).then(|| unsafe { functions.read_unaligned() });
         // SAFETY: passed on from the caller.
@@ -44,7 +49,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
         let logger = Logger {
             callback: callbacks.and_then(|f| f.logger),
             environment: callbacks.map_or(ptr::null_mut(), |f| f.componentEnvironment),
-            instance_name: printable(name.unwrap_or(MODEL_IDENTIFIER)),
+            instance_name: printable(cut(name.unwrap_or(MODEL_IDENTIFIER))),
             logging_on: loggingOn != FMI2_FALSE,
             chosen: None,
         };
@@ -52,14 +57,11 @@ pub unsafe extern "C" fn fmi2Instantiate(
         let guid = unsafe { text(fmuGUID, "fmuGUID") };
         let interface = match identity(fmuType, guid) {
             Ok(interface) => interface,
-            Err(sentence) => {
-                let sentence = format!("fmi2Instantiate: {sentence}");
-                logger.log(fmi2Status::fmi2Error, Category::Error, &sentence);
-                return ptr::null_mut();
-            }
+            Err(sentence) => return Err((logger, sentence)),
         };
         // SAFETY: passed on from the caller.
-        let location = unsafe { text(fmuResourceLocation, "fmuResourceLocation") }.ok();
+        let location = unsafe { text(fmuResourceLocation, "fmuResourceLocation") };
+        let location = location.ok().filter(|text| text.len() <= LONGEST_TEXT);
         let instance = Instance {
             interface,
             state: INSTANTIATED,
@@ -68,9 +70,36 @@ pub unsafe extern "C" fn fmi2Instantiate(
             strings: PerVariable::new(Default::default()),
             experiment: Experiment::default(),
         };
-        handle::create(instance)
+        Ok(instance)
     };
-    catch_unwind(AssertUnwindSafe(body)).unwrap_or(ptr::null_mut())
+    let create = || {
+        let (logger, sentence) = match in_default_environment(make) {
+            Ok(instance) => {
+                let logger = instance.logger.clone();
+                let component = handle::create(instance);
+                if !watch.is_short() {
+                    return component;
+                }
+                // SAFETY: it was made here, and nobody else knows it.
+                unsafe { handle::free::<Instance>(component) };
+                (logger, NO_MEMORY.to_owned())
+            }
+            Err(refusal) => refusal,
+        };
+        let sentence = format!("fmi2Instantiate: {sentence}");
+        logger.log(fmi2Status::fmi2Error, Category::Error, &sentence);
+        ptr::null_mut()
+    };
+    catch_unwind(AssertUnwindSafe(create)).unwrap_or(ptr::null_mut())
+}
+
+/// Bytes of the longest name of an instance and of the longest resource location.
+const LONGEST_TEXT: usize = 1 << 16;
+
+/// The beginning of a name that is longer than any name.
+fn cut(name: &str) -> &str {
+    let ends = (0..=LONGEST_TEXT.min(name.len())).rev();
+    ends.filter_map(|end| name.get(..end)).next().unwrap_or("")
 }
 
 /// The interface that the importer asks for; an error if it asks another FMU.
@@ -79,6 +108,7 @@ fn identity(kind: fmi2Enumeration, guid: Result<&str, Message>) -> Result<Interf
         Message::Error(text) | Message::Warning(text) => text,
     })?;
     if guid.trim() != GUID {
+        let guid: String = guid.chars().take(80).collect();
         return Err(format!(
             "the GUID {guid:?} is not the binary's, {GUID}; modelDescription.xml and binary must come from the same .fmu"
         ));

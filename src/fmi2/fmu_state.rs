@@ -9,11 +9,11 @@ use super::{
     arguments::{elements, fill, room, room_for_one},
     communication_time::Experiment,
     handle::{self, Marked},
-    instance::{Instance, Message, Outcome, call, refuse},
+    instance::{Instance, Message, Outcome, call, no_memory, refuse},
     legality::{Function, Interface, States},
     types::*,
 };
-use crate::block::Snapshot;
+use crate::{block::Snapshot, host::memory::Watch};
 use serde::{Deserialize, Serialize};
 use std::ptr;
 
@@ -86,19 +86,34 @@ unsafe fn variable<'a>(address: *mut fmi2FMUstate) -> Result<&'a mut fmi2FMUstat
     Ok(unsafe { room_for_one(address, "FMUstate")?.assume_init_mut() })
 }
 
-/// Stores a state where the importer keeps it: over the state that is there, else in new memory.
+/// Makes a state and stores it where the importer keeps it: over the state that is there, else in
+/// new memory.
 ///
 /// # Safety
 /// As `variable`; `*address` as in `living`.
-unsafe fn store(address: *mut fmi2FMUstate, state: FmuState) -> Outcome {
+unsafe fn store(
+    address: *mut fmi2FMUstate,
+    make: impl FnOnce() -> Result<FmuState, Message>,
+) -> Outcome {
+    let watch = Watch::begin();
+    let state = make()?;
     // SAFETY: passed on from the caller.
     let pointer = unsafe { variable(address)? };
     if pointer.is_null() {
-        *pointer = handle::create(state);
-    } else {
-        // SAFETY: passed on from the caller.
-        *unsafe { living(*pointer)? } = state;
+        let handle = handle::create(state);
+        if watch.is_short() {
+            // SAFETY: it was made here, and nobody else knows it.
+            unsafe { handle::free::<FmuState>(handle) };
+            return Err(no_memory(()));
+        }
+        *pointer = handle;
+        return Ok(());
     }
+    if watch.is_short() {
+        return Err(no_memory(()));
+    }
+    // SAFETY: passed on from the caller.
+    *unsafe { living(*pointer)? } = state;
     Ok(())
 }
 
@@ -110,7 +125,7 @@ unsafe fn store(address: *mut fmi2FMUstate, state: FmuState) -> Outcome {
 pub unsafe extern "C" fn fmi2GetFMUstate(c: fmi2Component, state: *mut fmi2FMUstate) -> fmi2Status {
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
-        unsafe { store(state, FmuState::of(instance)) }
+        unsafe { store(state, || Ok(FmuState::of(instance))) }
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2GetFMUstate, body) }
@@ -219,9 +234,8 @@ pub unsafe extern "C" fn fmi2DeSerializeFMUstate(
     let body = |_: &mut Instance| {
         // SAFETY: passed on from the caller; a byte is a byte.
         let bytes = unsafe { elements(serializedState.cast::<u8>(), size, "serializedState")? };
-        let read = FmuState::from_bytes(bytes)?;
         // SAFETY: passed on from the caller.
-        unsafe { store(state, read) }
+        unsafe { store(state, || Ok(FmuState::from_bytes(bytes)?)) }
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2DeSerializeFMUstate, body) }

@@ -5,7 +5,7 @@
 
 use super::{
     arguments::{elements, room, text},
-    instance::{Instance, Message, call},
+    instance::{Instance, call, no_memory},
     legality::{CONTINUOUS_TIME_MODE, Function, INITIALIZATION_MODE},
     logger::printable,
     types::*,
@@ -14,6 +14,7 @@ use crate::block::{
     Names,
     variables::{IntegerRef, RealRef, StringRef},
 };
+use crate::host::memory::Watch;
 
 /// Those of the importer's value references that exist.
 fn references<R>(vr: &[fmi2ValueReference]) -> impl Iterator<Item = R>
@@ -118,7 +119,12 @@ pub unsafe extern "C" fn fmi2GetString(
             // An unchanged text keeps its address, also where one call names it twice.
             let present = &instance.block.values().strings[reference];
             if kept.as_bytes() != present.as_bytes() {
-                *kept = printable(present);
+                let watch = Watch::begin();
+                let changed = printable(present);
+                if watch.is_short() {
+                    return Err(no_memory(()));
+                }
+                *kept = changed;
             }
             slot.write(kept.as_ptr());
         }
@@ -196,7 +202,12 @@ pub unsafe extern "C" fn fmi2SetString(
         let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, elements(value, nvr, "value")?) };
         // SAFETY: passed on from the caller.
         let texts = value.iter().map(|v| unsafe { text(*v, "a value") });
-        let texts = texts.collect::<Result<Vec<&str>, Message>>()?;
+        let mut known = Vec::new();
+        known.try_reserve_exact(value.len()).map_err(no_memory)?;
+        for text in texts {
+            known.push(text?);
+        }
+        let texts = known;
         Ok(instance.block.set_strings(vr, &texts)?)
     };
     // SAFETY: passed on from the caller.

@@ -11,7 +11,7 @@ use crate::block::{
     BlockError, Note, PerVariable, RotorBlock,
     variables::{STRINGS, StringRef},
 };
-use crate::host::float_environment::in_default_environment;
+use crate::host::{float_environment::in_default_environment, memory::NO_MEMORY};
 use std::{
     any::Any,
     ffi::CString,
@@ -45,6 +45,11 @@ impl<E: std::error::Error> From<E> for Message {
     fn from(error: E) -> Self {
         Self::Error(error.to_string())
     }
+}
+
+/// The error where there is not enough memory, whatever found that.
+pub fn no_memory<E>(_: E) -> Message {
+    Message::Error(NO_MEMORY.to_owned())
 }
 
 /// An error in the arguments of a call.

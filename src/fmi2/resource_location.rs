@@ -11,9 +11,9 @@ const AIRFOILS: &str = "airfoils";
 pub fn resources(location: Option<&str>) -> PathBuf {
     let given = location.map(|text| path_from_uri(text).unwrap_or_else(|| PathBuf::from(text)));
     let ours = given.filter(|path| path.join(AIRFOILS).is_dir());
-    // Made absolute, so that it stays the same folder if the importer changes the current one.
-    if let Some(folder) = ours.and_then(|path| path.canonicalize().ok()) {
-        return folder;
+    if let Some(folder) = ours {
+        // Made absolute, so that it stays the same folder if the importer changes the current one.
+        return folder.canonicalize().unwrap_or(folder);
     }
     let beside = library_file().and_then(|file| {
         let unpacked = file.parent()?.parent()?.parent()?;

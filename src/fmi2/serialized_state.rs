@@ -23,6 +23,8 @@ const MAGIC: [u8; 8] = *b"HelRotor";
 const VERSION: u32 = 4;
 const HEAD: usize = MAGIC.len() + 4 + GUID.len() + 8;
 const CHECKSUM: usize = 4;
+/// More bytes than any state has, with texts as long as they may be.
+const LONGEST: usize = 1 << 20;
 
 /// Why bytes are not a state of this FMU.
 #[derive(Debug, Error, PartialEq)]
@@ -77,6 +79,9 @@ impl FmuState {
     }
 
     pub fn from_bytes(bytes: &[u8]) -> Result<Self, DecodeError> {
+        if bytes.len() > LONGEST {
+            return Err(DecodeError::Long);
+        }
         let content = content(bytes)?;
         let (state, rest) = postcard::take_from_bytes::<Self>(content)?;
         if !rest.is_empty() {

@@ -25,6 +25,7 @@ mod logging;
 mod many;
 mod model_exchange;
 mod no_allocation;
+mod no_memory;
 mod ownership;
 mod pointers;
 mod random;

@@ -151,7 +151,8 @@ fn a_step_that_is_too_long_is_refused_at_once() {
     other.start().unwrap();
     let begin = std::time::Instant::now();
     let error = block.step(1e4).unwrap_err().to_string();
-    assert!(error.contains("a step of 10000 s is too long"), "{error}");
+    let part = "more work than numerics.budget = 5000000";
+    assert!(error.contains(part), "{error}");
     assert!(begin.elapsed().as_secs_f64() < 1.0);
     block.step(0.01).unwrap();
     other.step(0.01).unwrap();

@@ -100,10 +100,15 @@ fn loads_after_a_jump(mut block: RotorBlock, steps: &[f64], azimuth_step: f64) -
     [real::THRUST, real::HUB_MOMENT_1, real::HUB_MOMENT_2].map(|reference| get(&block, reference))
 }
 
+/// Communication points between the internal steps are read off the cubic between these, whose error
+/// is far below that of the steps.
 #[test]
 fn the_communication_step_does_not_change_the_answer() {
     let three_degrees = 3.0_f64.to_radians();
     let once = after_a_jump(&[0.0219], three_degrees);
+    let fine = after_a_jump(&[0.0219], 0.1 * three_degrees);
+    let errors = once.iter().zip(fine).map(|(a, b)| (a - b).abs());
+    let error = errors.fold(0.0, f64::max);
     for steps in [vec![0.0073; 3], vec![0.001; 22], vec![0.0002; 110]] {
         let mut steps = steps;
         let rest = 0.0219 - steps.iter().sum::<f64>();
@@ -114,7 +119,7 @@ fn the_communication_step_does_not_change_the_answer() {
         }
         let cut = after_a_jump(&steps, three_degrees);
         for (a, b) in once.iter().zip(cut) {
-            assert!((a - b).abs() < 1e-12 * once[0].abs(), "{once:?} {cut:?}");
+            assert!((a - b).abs() < 1e-3 * error, "{error:e}: {once:?} {cut:?}");
         }
     }
 }

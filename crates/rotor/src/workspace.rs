@@ -44,6 +44,11 @@ impl<S: Scalar> Workspace<S> {
             .resize(rotor.elements().len(), ElementLoads::zero());
     }
 
+    /// Whether no memory has been allocated yet.
+    pub fn is_empty(&self) -> bool {
+        self.elements.is_empty()
+    }
+
     pub(crate) fn elements(&self) -> &[ElementLoads<S>] {
         &self.elements
     }
