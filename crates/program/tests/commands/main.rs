@@ -7,6 +7,7 @@
 
 mod first_use;
 mod importers;
+mod importers_table;
 mod package;
 mod reference;
 mod support;
