@@ -41,6 +41,9 @@ def write_table(rows, file):
 
 
 def save_plot(figure, file):
+    """The plot appears whole or not at all."""
     file.parent.mkdir(parents=True, exist_ok=True)
-    figure.savefig(file, dpi=130)
+    temporary = file.with_suffix(".tmp")
+    figure.savefig(temporary, dpi=130, format=file.suffix[1:])
+    temporary.replace(file)
     plt.close(figure)

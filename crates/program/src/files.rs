@@ -35,43 +35,18 @@ pub fn name(path: &Path) -> String {
     name.to_string_lossy().into_owned()
 }
 
-/// A path for a temporary file or folder of this process, next to the one that it will replace.
-pub fn temporary_beside(path: &Path) -> Result<PathBuf, Failure> {
-    if path.file_name().is_none() {
-        return Err(Failure(format!(
-            "{} has no name of its own; name a file or folder",
-            path.display()
-        )));
-    }
-    let id = std::process::id();
-    Ok(path.with_file_name(format!(".{}.{id}.tmp", name(path))))
-}
-
-/// Writes a file that replaces an older one only when it is complete.
-pub fn replace_file(file: &Path, content: &str) -> Result<(), Failure> {
-    let temporary = temporary_beside(file)?;
-    fs::write(&temporary, content)
-        .and_then(|()| fs::rename(&temporary, file))
-        .map_err(failed(format!("cannot write {}", file.display())))
-}
-
-/// Renames a folder. A folder that already has the new name is replaced.
-pub fn replace_folder(from: &Path, to: &Path) -> Result<(), Failure> {
-    let cannot = || format!("cannot replace {}", to.display());
-    let old = to.with_extension(format!("{}.old", std::process::id()));
-    let is_replaced = to.exists();
-    if is_replaced {
-        fs::rename(to, &old).map_err(failed(cannot()))?;
-    }
-    if let Err(error) = fs::rename(from, to) {
-        if is_replaced {
-            // If this fails, too, the old folder keeps its temporary name. The first error counts.
-            let _ = fs::rename(&old, to);
+/// The names of the files below a folder, sorted, with forward slashes. Hidden files are left out.
+pub fn names_below(folder: &Path) -> Result<Vec<String>, Failure> {
+    let mut names = Vec::new();
+    for path in entries(folder)? {
+        let name = name(&path);
+        if path.is_dir() {
+            let below = names_below(&path)?;
+            names.extend(below.iter().map(|f| format!("{name}/{f}")));
+        } else if !name.starts_with('.') {
+            names.push(name);
         }
-        return Err(failed(cannot())(error));
     }
-    if is_replaced {
-        fs::remove_dir_all(&old).map_err(failed(format!("cannot remove {}", old.display())))?;
-    }
-    Ok(())
+    names.sort();
+    Ok(names)
 }

@@ -1,6 +1,7 @@
 //! The program: makes `HelicopterRotor.fmu`, compares it with measurements in FMPy, and writes the
 //! validation page.
 
+mod draft;
 mod files;
 mod package;
 mod python;
@@ -23,6 +24,9 @@ use validation::Purpose;
 /// measured in 1937 with it in FMPy, prints computed and measured thrust and torque, and plots them
 /// beside the FMU. FMPy and the other Python packages are installed into an environment of their
 /// own in target/python.
+///
+/// Files and folders are replaced when the new ones are complete, and not before. Where one is
+/// given as a symbolic link, the link stays and the file or folder to which it leads is written.
 #[derive(Parser)]
 #[command(version)]
 struct Arguments {
@@ -38,6 +42,9 @@ enum Command {
     /// Make the .fmu only
     Package {
         /// The .fmu to write [default: target/fmu/HelicopterRotor.fmu]
+        ///
+        /// A regular file, old or new: folders, devices and FIFOs are refused. Of a symbolic link
+        /// the target is written, also if it does not exist yet, and the link stays.
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
@@ -97,7 +104,10 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
     let default_fmu = target.join("fmu").join("HelicopterRotor.fmu");
     match command {
         Some(Command::Package { out }) => {
-            make_fmu(out.as_deref().unwrap_or(&default_fmu), &library()?)?;
+            let out = out.unwrap_or(default_fmu);
+            // Refused before the library is built.
+            draft::place_of_file(&out)?;
+            make_fmu(&out, &library()?)?;
         }
         Some(Command::Reference) => {
             let library = library()?;
@@ -112,6 +122,7 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
                 Purpose::Write
             };
             let out = out.unwrap_or_else(|| target.join("validation"));
+            validation::check_before(&out)?;
             validation::run(&out, &library()?, &target, purpose)?;
         }
         Some(Command::Python) => {

@@ -2,7 +2,9 @@
 //! folder, made again when fmu-examples/requirements.txt changes.
 
 use crate::{
-    Failure, failed,
+    Failure,
+    draft::replace_file,
+    failed,
     files::{make_folder, read_text},
     scripts::examples,
 };
@@ -30,8 +32,7 @@ pub fn environment(target: &Path) -> Result<PathBuf, Failure> {
     }
     make(&folder, &interpreter, &requirements)?;
     // Written last: an environment without this file is not complete and is made again.
-    fs::write(&installed, wanted)
-        .map_err(failed(format!("cannot write {}", installed.display())))?;
+    replace_file(&installed, wanted.as_bytes())?;
     Ok(interpreter)
 }
 

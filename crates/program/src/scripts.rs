@@ -1,6 +1,10 @@
 //! The Python scripts of the source tree that fly the FMU and write into a folder.
 
-use crate::{Failure, failed, python, sources};
+use crate::{
+    Failure,
+    draft::{self, Draft},
+    failed, files, python, sources,
+};
 use std::{
     path::{Path, PathBuf},
     process::Command,
@@ -22,7 +26,14 @@ pub fn fly_knight_hefner(fmu: &Path, target: &Path) -> Result<(), Failure> {
 /// source tree: those that travel in the FMU, and those in the form of the FMI cross-check.
 pub fn make_reference_flights(fmu: &Path, target: &Path) -> Result<(), Failure> {
     let script = sources().join("reference-flights").join("make.py");
-    run(target, &script, fmu, sources())
+    // Never published as a whole: its files are, one by one, when all are made.
+    let draft = Draft::new(target.join("reference-flights"))?;
+    run(target, &script, fmu, &draft.path())?;
+    for name in files::names_below(&draft.path())? {
+        let content = files::read(&draft.path().join(&name))?;
+        draft::replace_file(&sources().join(&name), &content)?;
+    }
+    Ok(())
 }
 
 /// Runs a script. Its output goes to the terminal.

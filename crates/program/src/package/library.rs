@@ -68,6 +68,13 @@ fn path_of_library(messages: &str) -> Option<PathBuf> {
 /// The name of the library in the FMU, and its content. It must contain the GUID of the
 /// description.
 pub fn read(library: &Path) -> Result<(String, Vec<u8>), Failure> {
+    // A FIFO or a device may have no end.
+    if library.exists() && !library.is_file() {
+        return Err(Failure(format!(
+            "{} is not a regular file; name a built library",
+            library.display()
+        )));
+    }
     let content = files::read(library)?;
     if !content
         .windows(GUID.len())

@@ -4,10 +4,14 @@
 mod documentation;
 pub mod library;
 
-use crate::{Failure, failed, files, sources};
+use crate::{
+    Failure,
+    draft::{Draft, place_of_file},
+    failed, files, sources,
+};
 use helicopter_rotor::description;
 use std::{
-    fs::{self, File},
+    fs::File,
     io::{Seek, Write},
     path::{Path, PathBuf},
 };
@@ -35,27 +39,11 @@ fn model_description() -> PathBuf {
 
 /// Writes the .fmu with a shared library in it. After an error there is no incomplete `file`.
 pub fn write(file: &Path, library: &Path) -> Result<(), Failure> {
-    if file.file_name().is_none() {
-        return Err(Failure(format!(
-            "{} is not the name of a file; give a name such as HelicopterRotor.fmu",
-            file.display()
-        )));
-    }
-    if let Some(folder) = file.parent().filter(|f| !f.as_os_str().is_empty()) {
-        files::make_folder(folder)?;
-    }
-    let temporary = files::temporary_beside(file)?;
-    let written = File::create(&temporary)
-        .map_err(failed(format!("cannot write {}", temporary.display())))
-        .and_then(|out| archive(out, library))
-        .and_then(|()| {
-            fs::rename(&temporary, file).map_err(failed(format!("cannot write {}", file.display())))
-        });
-    if written.is_err() {
-        // The error in `written` is the one to report, whether or not the file can be removed.
-        let _ = fs::remove_file(&temporary);
-    }
-    written
+    let draft = Draft::new(place_of_file(file)?)?;
+    let out =
+        File::create(draft.path()).map_err(failed(format!("cannot write {}", file.display())))?;
+    archive(out, library)?;
+    draft.publish()
 }
 
 fn archive(out: impl Write + Seek, library: &Path) -> Result<(), Failure> {
@@ -80,27 +68,11 @@ fn archive(out: impl Write + Seek, library: &Path) -> Result<(), Failure> {
         add(name, &read(name)?)?;
     }
     for (folder, name_in_archive) in FOLDERS {
-        for relative in files_below(&model_description().join(folder))? {
+        for relative in files::names_below(&model_description().join(folder))? {
             let content = read(&format!("{folder}/{relative}"))?;
             add(&format!("{name_in_archive}/{relative}"), &content)?;
         }
     }
     zip.finish().map_err(failed("cannot finish the archive"))?;
     Ok(())
-}
-
-/// The names of the files below a folder, sorted, with forward slashes. Hidden files are left out.
-fn files_below(folder: &Path) -> Result<Vec<String>, Failure> {
-    let mut names = Vec::new();
-    for path in files::entries(folder)? {
-        let name = files::name(&path);
-        if path.is_dir() {
-            let below = files_below(&path)?;
-            names.extend(below.iter().map(|f| format!("{name}/{f}")));
-        } else if !name.starts_with('.') {
-            names.push(name);
-        }
-    }
-    names.sort();
-    Ok(names)
 }

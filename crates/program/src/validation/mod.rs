@@ -9,8 +9,12 @@ mod compare;
 mod flights;
 mod publish;
 
-use crate::{Failure, files, package, python};
-use std::{fs, path::Path};
+use crate::{
+    Failure,
+    draft::{Draft, place_of_folder},
+    files, package, python,
+};
+use std::path::Path;
 
 /// What is done with the page of a run.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -21,20 +25,19 @@ pub enum Purpose {
     Check,
 }
 
+/// Checks, before the flights, which take minutes, that their results can be written.
+pub fn check_before(out: &Path) -> Result<(), Failure> {
+    publish::check_readme()?;
+    refuse_other_files(&place_of_folder(out)?)
+}
+
 /// Flies all cases. If all succeed, `out` is replaced by a folder with the FMU that was flown, the
 /// page, its figures, errors.csv and element-times.csv. Otherwise `out` is not changed.
 pub fn run(out: &Path, library: &Path, target: &Path, purpose: Purpose) -> Result<(), Failure> {
-    publish::check_readme()?;
-    refuse_other_files(out)?;
     let interpreter = python::environment(target)?;
-    let fresh = files::temporary_beside(out)?;
-    let flown =
-        fly_into(&fresh, library, &interpreter).and_then(|()| files::replace_folder(&fresh, out));
-    if fresh.exists() {
-        // The error in `flown` is the one to report, whether or not the folder can be removed.
-        let _ = fs::remove_dir_all(&fresh);
-    }
-    flown?;
+    let draft = Draft::new(place_of_folder(out)?)?;
+    fly_into(&draft.path(), library, &interpreter)?;
+    draft.publish()?;
     match purpose {
         Purpose::Write => publish::write(out)?,
         Purpose::Check => publish::check(out)?,
@@ -48,7 +51,6 @@ pub fn run(out: &Path, library: &Path, target: &Path, purpose: Purpose) -> Resul
 }
 
 fn fly_into(folder: &Path, library: &Path, interpreter: &Path) -> Result<(), Failure> {
-    files::make_folder(folder)?;
     let fmu = folder.join("HelicopterRotor.fmu");
     package::write(&fmu, library)?;
     flights::fly_all(interpreter, &fmu, folder)

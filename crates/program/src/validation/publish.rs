@@ -3,8 +3,10 @@
 
 use super::compare;
 use crate::{
-    Failure, failed,
-    files::{self, read_text, replace_file, replace_folder, temporary_beside},
+    Failure,
+    draft::{Draft, place_of_folder, replace_file},
+    failed,
+    files::{self, read_text},
     sources, summary,
 };
 use std::{
@@ -32,12 +34,11 @@ pub fn write(run: &Path) -> Result<(), Failure> {
     let page = read_text(&run.join(PAGE))?;
 
     // All contents are known to be good before the first file is replaced.
-    let figures = docs().join(FIGURES);
-    let copied = temporary_beside(&figures)?;
-    copy_figures(&run.join(FIGURES), &copied)?;
-    replace_folder(&copied, &figures)?;
-    replace_file(&docs().join(PAGE), &page)?;
-    replace_file(&summary::readme(), &readme)?;
+    let figures = Draft::new(place_of_folder(&docs().join(FIGURES))?)?;
+    copy_figures(&run.join(FIGURES), &figures.path())?;
+    figures.publish()?;
+    replace_file(&docs().join(PAGE), page.as_bytes())?;
+    replace_file(&summary::readme(), readme.as_bytes())?;
     println!(
         "Wrote {}, its figures, and the summary in {}",
         docs().join(PAGE).display(),

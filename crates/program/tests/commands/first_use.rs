@@ -1,41 +1,16 @@
 //! The program in its first use: its help, and its messages when something is missing.
 
-use crate::support;
-use std::{
-    fs::{self, File},
-    io,
-    path::{Path, PathBuf},
-    process::Command,
-};
-
-/// The program in a new target folder, in which there is no Python environment yet. It is a link,
-/// as a copy being written is "busy" to a process that another test starts at that moment.
-fn installed(name: &str) -> PathBuf {
-    let folder = support::scratch().join(name).join("debug");
-    fs::create_dir_all(&folder).unwrap();
-    let program = Path::new(env!("CARGO_BIN_EXE_helicopter-rotor"));
-    let link = folder.join(program.file_name().unwrap());
-    fs::hard_link(program, &link).unwrap();
-    link
-}
-
-/// The shared library in the packaged FMU, as a file.
-fn library() -> PathBuf {
-    let file = support::scratch().join("library.so");
-    let fmu = File::open(support::packaged_fmu()).unwrap();
-    let mut archive = zip::ZipArchive::new(fmu).unwrap();
-    let mut binary = archive
-        .by_name("binaries/linux64/HelicopterRotor.so")
-        .unwrap();
-    io::copy(&mut binary, &mut File::create(&file).unwrap()).unwrap();
-    file
-}
+use crate::support::{self, installed};
+use std::{fs, process::Command};
 
 #[test]
 fn without_python_the_fmu_is_made_and_the_message_names_python() {
     let program = installed("no-python");
     let mut command = Command::new(&program);
-    command.env("PATH", "").arg("--library").arg(library());
+    command
+        .env("PATH", "")
+        .arg("--library")
+        .arg(support::library());
     let message = support::fail(&mut command);
     assert!(
         message.contains("the .fmu is made")

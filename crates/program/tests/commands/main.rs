@@ -9,6 +9,7 @@ mod first_use;
 mod importers;
 mod importers_table;
 mod package;
+mod package_out;
 mod reference;
 mod support;
 mod validation;

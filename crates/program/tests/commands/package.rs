@@ -1,4 +1,4 @@
-//! The archive: its content, and that an error leaves no incomplete file.
+//! The archive: its content.
 
 use crate::support;
 use roxmltree::{Document, Node};
@@ -94,21 +94,6 @@ fn the_same_content_makes_the_same_archive() {
     support::succeed(&mut package(&one));
     support::succeed(&mut package(&other));
     assert!(fs::read(one).unwrap() == fs::read(other).unwrap());
-}
-
-#[test]
-fn an_output_that_cannot_be_written_is_named_and_leaves_no_files() {
-    let folder = scratch("a-folder-in-the-way.fmu");
-    fs::create_dir_all(folder.join("inside")).unwrap();
-    let message = support::fail(&mut package(&folder));
-    assert!(message.contains("a-folder-in-the-way.fmu"), "{message}");
-    let left_over = fs::read_dir(folder.parent().unwrap())
-        .unwrap()
-        .any(|entry| {
-            let name = entry.unwrap().file_name();
-            name.to_string_lossy().starts_with(".a-folder-in-the-way")
-        });
-    assert!(!left_over);
 }
 
 /// Without dependencies an importer must assume that every output depends on all inputs, which

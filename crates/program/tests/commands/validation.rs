@@ -2,11 +2,14 @@
 //! FMPy. The errors keep to these bounds, and docs/validation.md and the README agree with the
 //! results.
 
-use crate::support::{self, fail, interpreter, program, scratch, succeed};
+use crate::support::{
+    self, fail, install_interpreter, installed, interpreter, program, scratch, succeed, target,
+};
 use serde::Deserialize;
 use std::{
     fs,
-    path::PathBuf,
+    os::unix::fs::symlink,
+    path::{Path, PathBuf},
     process::{Command, Output},
     sync::OnceLock,
 };
@@ -271,4 +274,31 @@ fn a_folder_with_other_files_is_refused() {
         fs::read_to_string(folder.join("notes.txt")).unwrap(),
         "mine"
     );
+}
+
+/// The flights are a script that writes one file, so that the comparison fails afterwards.
+#[test]
+fn new_results_replace_the_whole_older_folder_to_which_a_link_leads() {
+    let program = installed("older-results");
+    install_interpreter(&program, r#"echo new >"$5/errors.csv""#);
+    let older = target(&program).join("older");
+    let link = target(&program).join("link");
+    fs::create_dir(&older).unwrap();
+    fs::write(older.join("summary.md"), "old").unwrap();
+    symlink("older", &link).unwrap();
+    let mut command = Command::new(&program);
+    command.arg("--library").arg(support::library());
+    fail(command.args(["validate", "--check", "--out"]).arg(&link));
+    let names = |folder: &Path| {
+        let entries = fs::read_dir(folder).unwrap();
+        let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name()).collect();
+        names.sort();
+        names
+    };
+    assert_eq!(names(&older), ["HelicopterRotor.fmu", "errors.csv"]);
+    assert_eq!(
+        names(target(&program)),
+        ["debug", "link", "older", "python", "python.lock"]
+    );
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
 }
