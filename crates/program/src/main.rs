@@ -3,6 +3,7 @@
 
 mod draft;
 mod files;
+mod output;
 mod package;
 mod python;
 mod scripts;
@@ -28,7 +29,7 @@ use validation::Purpose;
 /// Files and folders are replaced when the new ones are complete, and not before. Where one is
 /// given as a symbolic link, the link stays and the file or folder to which it leads is written.
 #[derive(Parser)]
-#[command(version)]
+#[command(version, after_long_help = EXIT_STATUS)]
 struct Arguments {
     /// Use this built library for the FMU and do not build one with cargo
     #[arg(long, global = true, value_name = "FILE")]
@@ -67,6 +68,13 @@ enum Command {
     Python,
 }
 
+const EXIT_STATUS: &str = "\
+Exit status:
+  0    done
+  1    an error, which a sentence on the standard error explains
+  2    wrong arguments
+  141  ended because the reader of the output has gone, as in `... | head -1`";
+
 /// An error as a sentence for the person at the terminal.
 #[derive(Debug)]
 pub struct Failure(pub String);
@@ -89,11 +97,25 @@ pub fn sources() -> &'static Path {
 }
 
 fn main() -> ExitCode {
-    match run(Arguments::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
+    match parse_and_run() {
+        Ok(status) => status,
+        Err(_) if output::reader_has_gone() => ExitCode::from(output::EXIT_STATUS_WITHOUT_READER),
         Err(failure) => {
-            eprintln!("Error: {failure}");
+            output::note(format_args!("Error: {failure}"));
             ExitCode::FAILURE
+        }
+    }
+}
+
+fn parse_and_run() -> Result<ExitCode, Failure> {
+    output::check()?;
+    match Arguments::try_parse() {
+        Ok(arguments) => run(arguments).map(|()| ExitCode::SUCCESS),
+        // Also --help and --version are errors for clap.
+        Err(error) => {
+            output::written(error.print())?;
+            let status = u8::try_from(error.exit_code()).map_or(ExitCode::FAILURE, ExitCode::from);
+            Ok(status)
         }
     }
 }
@@ -107,13 +129,13 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
             let out = out.unwrap_or(default_fmu);
             // Refused before the library is built.
             draft::place_of_file(&out)?;
-            make_fmu(&out, &library()?)?;
+            make_fmu(&out, &library()?)
         }
         Some(Command::Reference) => {
             let library = library()?;
             make_fmu(&default_fmu, &library)?;
             scripts::make_reference_flights(&default_fmu, &target)?;
-            make_fmu(&default_fmu, &library)?;
+            make_fmu(&default_fmu, &library)
         }
         Some(Command::Validate { check, out }) => {
             let purpose = if check {
@@ -123,23 +145,19 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
             };
             let out = out.unwrap_or_else(|| target.join("validation"));
             validation::check_before(&out)?;
-            validation::run(&out, &library()?, &target, purpose)?;
+            validation::run(&out, &library()?, &target, purpose)
         }
-        Some(Command::Python) => {
-            println!("{}", python::environment(&target)?.display());
-        }
+        Some(Command::Python) => output::print(python::environment(&target)?.display()),
         None => {
             make_fmu(&default_fmu, &library()?)?;
-            scripts::fly_knight_hefner(&default_fmu, &target)?;
+            scripts::fly_knight_hefner(&default_fmu, &target)
         }
     }
-    Ok(())
 }
 
 fn make_fmu(file: &Path, library: &Path) -> Result<(), Failure> {
     package::write(file, library)?;
-    println!("Made {}", file.display());
-    Ok(())
+    output::print(format_args!("Made {}", file.display()))
 }
 
 /// Cargo's target folder, which contains this program as `target/<profile>/<program>`.

@@ -12,7 +12,7 @@ mod publish;
 use crate::{
     Failure,
     draft::{Draft, place_of_folder},
-    files, package, python,
+    files, output, package, python,
 };
 use std::path::Path;
 
@@ -42,12 +42,14 @@ pub fn run(out: &Path, library: &Path, target: &Path, purpose: Purpose) -> Resul
         Purpose::Write => publish::write(out)?,
         Purpose::Check => publish::check(out)?,
     }
-    println!("Errors of each case: {}", out.join("errors.csv").display());
-    println!(
+    output::print(format_args!(
+        "Errors of each case: {}",
+        out.join("errors.csv").display()
+    ))?;
+    output::print(format_args!(
         "Time per solution by number of elements: {}",
         out.join("element-times.csv").display()
-    );
-    Ok(())
+    ))
 }
 
 fn fly_into(folder: &Path, library: &Path, interpreter: &Path) -> Result<(), Failure> {

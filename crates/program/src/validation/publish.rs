@@ -7,7 +7,7 @@ use crate::{
     draft::{Draft, place_of_folder, replace_file},
     failed,
     files::{self, read_text},
-    sources, summary,
+    output, sources, summary,
 };
 use std::{
     collections::BTreeSet,
@@ -39,12 +39,11 @@ pub fn write(run: &Path) -> Result<(), Failure> {
     figures.publish()?;
     replace_file(&docs().join(PAGE), page.as_bytes())?;
     replace_file(&summary::readme(), readme.as_bytes())?;
-    println!(
+    output::print(format_args!(
         "Wrote {}, its figures, and the summary in {}",
         docs().join(PAGE).display(),
         summary::readme().display()
-    );
-    Ok(())
+    ))
 }
 
 /// Compares the page and the summary of a run with the published ones.
@@ -78,8 +77,7 @@ pub fn check(run: &Path) -> Result<(), Failure> {
             "docs/validation has the figures {published:?} and should have {computed:?}; {REMEDY}"
         )));
     }
-    println!("docs/validation.md and README.md agree with what was just computed");
-    Ok(())
+    output::print("docs/validation.md and README.md agree with what was just computed")
 }
 
 fn copy_figures(from: &Path, to: &Path) -> Result<(), Failure> {

@@ -12,4 +12,5 @@ mod package;
 mod package_out;
 mod reference;
 mod support;
+mod terminal;
 mod validation;
