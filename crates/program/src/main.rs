@@ -5,8 +5,10 @@ mod draft;
 mod files;
 mod output;
 mod package;
+mod process;
 mod python;
 mod scripts;
+mod stop;
 mod summary;
 mod validation;
 
@@ -73,6 +75,7 @@ Exit status:
   0    done
   1    an error, which a sentence on the standard error explains
   2    wrong arguments
+  130  ended by Ctrl-C or SIGTERM; nothing incomplete is left
   141  ended because the reader of the output has gone, as in `... | head -1`";
 
 /// An error as a sentence for the person at the terminal.
@@ -100,6 +103,10 @@ fn main() -> ExitCode {
     match parse_and_run() {
         Ok(status) => status,
         Err(_) if output::reader_has_gone() => ExitCode::from(output::EXIT_STATUS_WITHOUT_READER),
+        Err(_) if stop::is_requested() => {
+            output::note("Interrupted; nothing incomplete is left.");
+            ExitCode::from(stop::EXIT_STATUS)
+        }
         Err(failure) => {
             output::note(format_args!("Error: {failure}"));
             ExitCode::FAILURE
@@ -109,6 +116,7 @@ fn main() -> ExitCode {
 
 fn parse_and_run() -> Result<ExitCode, Failure> {
     output::check()?;
+    stop::watch()?;
     match Arguments::try_parse() {
         Ok(arguments) => run(arguments).map(|()| ExitCode::SUCCESS),
         // Also --help and --version are errors for clap.

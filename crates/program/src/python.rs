@@ -6,34 +6,44 @@ use crate::{
     draft::replace_file,
     failed,
     files::{make_folder, read_text},
-    scripts::examples,
+    process, scripts, stop,
 };
 use indicatif::ProgressBar;
 use std::{
-    fs::{self, File},
+    fs::{self, File, TryLockError},
     path::{Path, PathBuf},
-    process::Command,
+    process::{Command, Stdio},
+    thread,
     time::Duration,
 };
 
-/// The path of the environment's interpreter. Makes the environment if it is missing or was made
-/// from other requirements.
+/// How long an interpreter may take to say its version.
+const LIMIT_OF_VERSION: Duration = Duration::from_secs(20);
+/// To make an environment without packages.
+const LIMIT_OF_VENV: Duration = Duration::from_secs(10 * 60);
+/// To download and install the packages.
+const LIMIT_OF_PIP: Duration = Duration::from_secs(3600);
+
+/// The path of the environment's interpreter. Makes the environment if it is missing, incomplete or
+/// was made from other requirements.
 pub fn environment(target: &Path) -> Result<PathBuf, Failure> {
-    let folder = target.join("python");
-    let interpreter = folder.join("bin").join("python");
-    let installed = folder.join("requirements.txt");
-    let requirements = examples().join("requirements.txt");
-    let wanted = read_text(&requirements)?;
+    let environment = Environment {
+        folder: target.join("python"),
+        interpreter: target.join("python").join("bin").join("python"),
+        installed: target.join("python").join("requirements.txt"),
+        requirements: scripts::examples().join("requirements.txt"),
+    };
+    let wanted = read_text(&environment.requirements)?;
 
     let _lock = lock(target)?;
-    let is_current = fs::read_to_string(&installed).is_ok_and(|found| found == wanted);
-    if is_current && interpreter.is_file() {
-        return Ok(interpreter);
+    let is_current = fs::read_to_string(&environment.installed).is_ok_and(|found| found == wanted);
+    if is_current && environment.interpreter.is_file() {
+        return Ok(environment.interpreter);
     }
-    make(&folder, &interpreter, &requirements)?;
+    environment.make()?;
     // Written last: an environment without this file is not complete and is made again.
-    replace_file(&installed, wanted.as_bytes())?;
-    Ok(interpreter)
+    replace_file(&environment.installed, wanted.as_bytes())?;
+    Ok(environment.interpreter)
 }
 
 /// Waits until no other process makes the environment. The lock ends when it is dropped.
@@ -41,65 +51,82 @@ fn lock(target: &Path) -> Result<File, Failure> {
     make_folder(target)?;
     let path = target.join("python.lock");
     let file = File::create(&path).map_err(failed(format!("cannot make {}", path.display())))?;
-    file.lock()
-        .map_err(failed(format!("cannot lock {}", path.display())))?;
-    Ok(file)
+    loop {
+        match file.try_lock() {
+            Ok(()) => return Ok(file),
+            Err(TryLockError::WouldBlock) => stop::check()?,
+            Err(TryLockError::Error(error)) => {
+                return Err(failed(format!("cannot lock {}", path.display()))(error));
+            }
+        }
+        thread::sleep(process::TICK);
+    }
 }
 
-/// Makes the environment in a folder and installs the requirements.
-fn make(folder: &Path, interpreter: &Path, requirements: &Path) -> Result<(), Failure> {
-    let python = system_python()?;
+struct Environment {
+    folder: PathBuf,
+    interpreter: PathBuf,
+    /// The requirements that are installed.
+    installed: PathBuf,
+    /// Those that should be.
+    requirements: PathBuf,
+}
+
+impl Environment {
+    /// Makes the environment anew, with all packages.
+    fn make(&self) -> Result<(), Failure> {
+        let python = system_python()?;
+        let spinner = spinner("making the Python environment (only once) ...");
+        if self.folder.exists() {
+            fs::remove_dir_all(&self.folder)
+                .map_err(failed(format!("cannot replace {}", self.folder.display())))?;
+        }
+        let mut venv = Command::new(python);
+        process::run_quietly(venv.args(["-m", "venv"]).arg(&self.folder), LIMIT_OF_VENV).map_err(
+            failed("cannot make a Python environment; on Debian or Ubuntu, install the package python3-venv"),
+        )?;
+        spinner.finish_and_clear();
+        self.install()
+    }
+
+    fn install(&self) -> Result<(), Failure> {
+        let spinner =
+            spinner("installing FMPy, Matplotlib and SciPy (only once, about a minute) ...");
+        let mut pip = Command::new(&self.interpreter);
+        pip.args(["-m", "pip", "install", "--quiet"])
+            .args(["--disable-pip-version-check", "--no-input"])
+            .arg("-r")
+            .arg(&self.requirements);
+        process::run_quietly(&mut pip, LIMIT_OF_PIP).map_err(failed(
+            "cannot install the Python packages in fmu-examples/requirements.txt; check the connection to PyPI",
+        ))?;
+        spinner.finish_and_clear();
+        Ok(())
+    }
+}
+
+fn spinner(message: &'static str) -> ProgressBar {
     let spinner = ProgressBar::new_spinner();
     spinner.enable_steady_tick(Duration::from_millis(120));
-    spinner.set_message("making the Python environment (only once) ...");
-    if folder.exists() {
-        fs::remove_dir_all(folder)
-            .map_err(failed(format!("cannot replace {}", folder.display())))?;
-    }
-    run_quietly(
-        Command::new(python).args(["-m", "venv"]).arg(folder),
-        "cannot make a Python environment; on Debian or Ubuntu, install the package python3-venv",
-    )?;
-    spinner.set_message("installing FMPy, Matplotlib and SciPy (only once, about a minute) ...");
-    run_quietly(
-        Command::new(interpreter)
-            .args(["-m", "pip", "install", "--quiet"])
-            .args(["--disable-pip-version-check", "-r"])
-            .arg(requirements),
-        "cannot install the Python packages in fmu-examples/requirements.txt; check the connection to PyPI",
-    )?;
-    spinner.finish_and_clear();
-    Ok(())
+    spinner.set_message(message);
+    spinner
 }
 
 /// The name of an interpreter of version 3.10 or later.
 fn system_python() -> Result<&'static str, Failure> {
-    const MISSING: &str = "python3 (3.10 or later) is missing, in which FMPy flies the FMU";
+    const NEEDED: &str = "python3 (3.10 or later) is needed, in which FMPy flies the FMU";
     let check = "import sys; print(sys.version.split()[0]); sys.exit(sys.version_info < (3, 10))";
-    let found = Command::new("python3").args(["-c", check]).output();
-    match found {
-        Ok(output) if output.status.success() => Ok("python3"),
-        Ok(output) => {
-            let version = String::from_utf8_lossy(&output.stdout).trim().to_owned();
-            Err(Failure(format!(
-                "{MISSING}; the one on the PATH is {version}; install a later one and run this again"
-            )))
-        }
-        Err(error) => Err(Failure(format!(
-            "{MISSING} ({error}); install it and run this again"
-        ))),
+    let mut command = Command::new("python3");
+    command.args(["-c", check]).stderr(Stdio::piped());
+    let (status, version, errors) =
+        process::output(&mut command, LIMIT_OF_VERSION).map_err(failed(format!(
+            "{NEEDED}; install or repair the one on the PATH and run this again"
+        )))?;
+    if status.success() {
+        return Ok("python3");
     }
-}
-
-/// Runs a command. If it fails, the error is `sentence` followed by the output of the command.
-fn run_quietly(command: &mut Command, sentence: &str) -> Result<(), Failure> {
-    let output = command.output().map_err(failed(sentence))?;
-    if output.status.success() {
-        return Ok(());
-    }
-    let words = [output.stdout.as_slice(), output.stderr.as_slice()].concat();
     Err(Failure(format!(
-        "{sentence}\n{}",
-        String::from_utf8_lossy(&words).trim()
+        "{NEEDED}; the one on the PATH is {}; install a later one and run this again",
+        (version + &errors).trim()
     )))
 }

@@ -3,12 +3,16 @@
 use crate::{
     Failure,
     draft::{self, Draft},
-    failed, files, python, sources,
+    failed, files, output, process, python, sources,
 };
 use std::{
     path::{Path, PathBuf},
-    process::Command,
+    process::{Command, Stdio},
+    time::Duration,
 };
+
+/// How long a script may fly. They need less than five minutes.
+pub const LIMIT: Duration = Duration::from_secs(2 * 3600);
 
 /// The folder of the examples.
 pub fn examples() -> PathBuf {
@@ -36,18 +40,26 @@ pub fn make_reference_flights(fmu: &Path, target: &Path) -> Result<(), Failure> 
     Ok(())
 }
 
-/// Runs a script. Its output goes to the terminal.
+/// Runs a script, and prints what it prints.
 fn run(target: &Path, script: &Path, fmu: &Path, out: &Path) -> Result<(), Failure> {
     let interpreter = python::environment(target)
         .map_err(failed("the .fmu is made, but it cannot be flown here"))?;
-    let status = Command::new(interpreter)
+    let mut command = Command::new(interpreter);
+    command
+        // Each line is to appear when it is printed.
+        .arg("-u")
         .arg(script)
         .arg("--fmu")
         .arg(fmu)
         .arg("--out")
         .arg(out)
-        .status()
+        // Not shown if the script is ended: a traceback would say nothing.
+        .stderr(Stdio::piped());
+    let (status, message) = process::run(&mut command, LIMIT, |line| output::print(line))
         .map_err(failed(format!("cannot run {}", script.display())))?;
+    if !message.is_empty() {
+        output::note(message);
+    }
     if status.success() {
         return Ok(());
     }

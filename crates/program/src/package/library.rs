@@ -1,12 +1,16 @@
 //! The shared library that goes into the FMU: built by cargo, or given by the user.
 
-use crate::{Failure, failed, files, sources};
+use crate::{Failure, failed, files, process, sources};
 use helicopter_rotor::block::variables::{GUID, MODEL_IDENTIFIER};
 use std::{
     env::{self, consts::DLL_SUFFIX},
     path::{Path, PathBuf},
-    process::{Command, Stdio},
+    process::Command,
+    time::Duration,
 };
+
+/// How long cargo may take, also on a slow machine that must first download and compile all crates.
+const LIMIT: Duration = Duration::from_secs(3600);
 
 /// The platform's folder in an FMU (FMI 2.0.5, section 2.3).
 #[cfg(all(target_os = "linux", target_arch = "x86_64"))]
@@ -28,21 +32,19 @@ pub fn build(target: &Path) -> Result<PathBuf, Failure> {
         .arg("--manifest-path")
         .arg(sources().join("Cargo.toml"))
         .arg("--target-dir")
-        .arg(target)
-        .stderr(Stdio::inherit());
+        .arg(target);
     if !cfg!(debug_assertions) {
         command.arg("--release");
     }
-    let output = command.output().map_err(failed(
+    let (status, messages, _) = process::output(&mut command, LIMIT).map_err(failed(
         "cannot run cargo to build the FMU's library; put cargo on the PATH, or name a built library with --library",
     ))?;
-    if !output.status.success() {
+    if !status.success() {
         return Err(Failure(format!(
-            "cargo did not build the FMU's library ({}); see its message above",
-            output.status
+            "cargo did not build the FMU's library ({status}); see its message above"
         )));
     }
-    path_of_library(&String::from_utf8_lossy(&output.stdout)).ok_or_else(|| {
+    path_of_library(&messages).ok_or_else(|| {
         Failure(
             "cargo built the FMU's library, but its messages name no shared library; build it yourself and name it with --library".into(),
         )

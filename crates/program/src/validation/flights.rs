@@ -1,42 +1,35 @@
 //! Runs the scripts in validation/, with a progress bar.
 
-use crate::{Failure, failed, sources};
+use crate::{Failure, failed, process, scripts, sources};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::{
-    io::{BufRead, BufReader, Read},
     path::Path,
     process::{Command, Stdio},
-    thread,
     time::Duration,
 };
 
 /// Flies all cases and writes the results into a folder.
 pub fn fly_all(interpreter: &Path, fmu: &Path, folder: &Path) -> Result<(), Failure> {
-    let scripts = sources().join("validation");
-    let cannot = || format!("cannot run {}", scripts.display());
-    let mut child = Command::new(interpreter)
-        .arg(&scripts)
+    let folder_of_scripts = sources().join("validation");
+    let mut command = Command::new(interpreter);
+    command
+        .arg("-u")
+        .arg(&folder_of_scripts)
         .arg("--fmu")
         .arg(fmu)
         .arg("--out")
         .arg(folder)
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .map_err(failed(cannot()))?;
-    let (Some(output), Some(mut errors)) = (child.stdout.take(), child.stderr.take()) else {
-        return Err(Failure(cannot()));
-    };
-    // Both pipes are read at the same time, because a full one stops the scripts.
-    let message = thread::spawn(move || {
-        let mut bytes = Vec::new();
-        // After an error in reading, the message is what was read until then.
-        let _ = errors.read_to_end(&mut bytes);
-        String::from_utf8_lossy(&bytes).trim().to_owned()
-    });
-    show_progress(output).map_err(failed(cannot()))?;
-    let status = child.wait().map_err(failed(cannot()))?;
-    let message = message.join().unwrap_or_default();
+        .stderr(Stdio::piped());
+    let bar = progress_bar();
+    let (status, message) = process::run(&mut command, scripts::LIMIT, |line| {
+        show(&bar, line);
+        Ok(())
+    })
+    .map_err(failed(format!(
+        "cannot run {}",
+        folder_of_scripts.display()
+    )))?;
+    bar.finish_and_clear();
     if status.success() {
         return Ok(());
     }
@@ -45,25 +38,24 @@ pub fn fly_all(interpreter: &Path, fmu: &Path, folder: &Path) -> Result<(), Fail
     )))
 }
 
-/// Shows the progress in the output of the scripts, and their other lines above it.
-fn show_progress(output: impl Read) -> std::io::Result<()> {
+fn progress_bar() -> ProgressBar {
     let bar = ProgressBar::new(0);
     if let Ok(style) = ProgressStyle::with_template("{elapsed} {wide_bar} {pos}/{len} {msg}") {
         bar.set_style(style);
     }
     bar.enable_steady_tick(Duration::from_millis(250));
-    for line in BufReader::new(output).lines() {
-        let line = line?;
-        if let Some((done, total, name)) = progress(&line) {
-            bar.set_length(total);
-            bar.set_position(done);
-            bar.set_message(name.to_owned());
-        } else {
-            bar.println(line);
-        }
+    bar
+}
+
+/// Shows a line of the scripts: the progress in the bar, others above it.
+fn show(bar: &ProgressBar, line: &str) {
+    if let Some((done, total, name)) = progress(line) {
+        bar.set_length(total);
+        bar.set_position(done);
+        bar.set_message(name.to_owned());
+    } else {
+        bar.println(line);
     }
-    bar.finish_and_clear();
-    Ok(())
 }
 
 /// The parts of a line `progress DONE TOTAL NAME`.

@@ -14,7 +14,7 @@ fn without_python_the_fmu_is_made_and_the_message_names_python() {
     let message = support::fail(&mut command);
     assert!(
         message.contains("the .fmu is made")
-            && message.contains("python3 (3.10 or later) is missing"),
+            && message.contains("python3 (3.10 or later) is needed"),
         "{message}"
     );
     let target = program.ancestors().nth(2).unwrap();

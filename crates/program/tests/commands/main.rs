@@ -5,6 +5,7 @@
 // The standard library's functions are independent of those under test.
 #![allow(clippy::disallowed_methods)]
 
+mod environment;
 mod first_use;
 mod importers;
 mod importers_table;

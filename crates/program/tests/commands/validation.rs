@@ -280,7 +280,7 @@ fn a_folder_with_other_files_is_refused() {
 #[test]
 fn new_results_replace_the_whole_older_folder_to_which_a_link_leads() {
     let program = installed("older-results");
-    install_interpreter(&program, r#"echo new >"$5/errors.csv""#);
+    install_interpreter(&program, r#"echo new >"$6/errors.csv""#);
     let older = target(&program).join("older");
     let link = target(&program).join("link");
     fs::create_dir(&older).unwrap();
