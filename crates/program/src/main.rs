@@ -66,7 +66,10 @@ enum Command {
         #[arg(long, value_name = "FOLDER")]
         out: Option<PathBuf>,
     },
-    /// Make the Python environment of the examples, and print the path of its interpreter
+    /// Make or repair the Python environment of the examples, and print the path of its interpreter
+    ///
+    /// The environment is in target/python. All packages that the examples import are imported. If
+    /// one is missing or broken, it is named, and the packages are installed again.
     Python,
 }
 

@@ -1,12 +1,13 @@
 //! The Python environment of the examples and of validation/: a virtual environment in the target
-//! folder, made again when fmu-examples/requirements.txt changes.
+//! folder. It is made again when fmu-examples/requirements.txt changes, and repaired when a package
+//! is missing or broken.
 
 use crate::{
     Failure,
     draft::replace_file,
     failed,
     files::{make_folder, read_text},
-    process, scripts, stop,
+    output, process, scripts, sources, stop,
 };
 use indicatif::ProgressBar;
 use std::{
@@ -17,15 +18,25 @@ use std::{
     time::Duration,
 };
 
+/// The folders of the scripts that run in the environment.
+const SCRIPTS: [&str; 4] = [
+    "fmu-examples",
+    "validation",
+    "reference-flights",
+    "provenance/descent-law",
+];
+
 /// How long an interpreter may take to say its version.
 const LIMIT_OF_VERSION: Duration = Duration::from_secs(20);
+/// To import the packages, also from a slow disk on which they have just been installed.
+const LIMIT_OF_IMPORTS: Duration = Duration::from_secs(5 * 60);
 /// To make an environment without packages.
 const LIMIT_OF_VENV: Duration = Duration::from_secs(10 * 60);
 /// To download and install the packages.
 const LIMIT_OF_PIP: Duration = Duration::from_secs(3600);
 
 /// The path of the environment's interpreter. Makes the environment if it is missing, incomplete or
-/// was made from other requirements.
+/// was made from other requirements, and repairs it if a package cannot be imported.
 pub fn environment(target: &Path) -> Result<PathBuf, Failure> {
     let environment = Environment {
         folder: target.join("python"),
@@ -36,12 +47,31 @@ pub fn environment(target: &Path) -> Result<PathBuf, Failure> {
     let wanted = read_text(&environment.requirements)?;
 
     let _lock = lock(target)?;
-    let is_current = fs::read_to_string(&environment.installed).is_ok_and(|found| found == wanted);
-    if is_current && environment.interpreter.is_file() {
-        return Ok(environment.interpreter);
+    if fs::read_to_string(&environment.installed).is_ok_and(|found| found == wanted) {
+        let Some(fault) = environment.fault()? else {
+            return Ok(environment.interpreter);
+        };
+        output::note(format_args!(
+            "{}: {fault}. Installing the packages again ...",
+            environment.folder.display()
+        ));
+        // While this file is missing, the environment is not complete and is made again.
+        fs::remove_file(&environment.installed).map_err(failed(format!(
+            "cannot remove {}",
+            environment.installed.display()
+        )))?;
+        if !environment.repair()? {
+            environment.make()?;
+        }
+    } else {
+        environment.make()?;
     }
-    environment.make()?;
-    // Written last: an environment without this file is not complete and is made again.
+    if let Some(fault) = environment.fault()? {
+        return Err(Failure(format!(
+            "{}: {fault}, although the packages have just been installed; see fmu-examples/requirements.txt for what they are",
+            environment.folder.display()
+        )));
+    }
     replace_file(&environment.installed, wanted.as_bytes())?;
     Ok(environment.interpreter)
 }
@@ -73,6 +103,43 @@ struct Environment {
 }
 
 impl Environment {
+    /// What is wrong with it: packages that the scripts cannot import, or its interpreter.
+    fn fault(&self) -> Result<Option<String>, Failure> {
+        let mut command = Command::new(&self.interpreter);
+        command
+            .args(["-c", include_str!("imports.py")])
+            .args(SCRIPTS.map(|folder| sources().join(folder)))
+            // Matplotlib needs no screen.
+            .env("MPLBACKEND", "Agg")
+            .stderr(Stdio::piped());
+        match process::output(&mut command, LIMIT_OF_IMPORTS) {
+            Ok((status, _, _)) if status.success() => Ok(None),
+            Ok((_, packages, _)) if !packages.trim().is_empty() => {
+                let packages: Vec<_> = packages.lines().collect();
+                Ok(Some(format!("cannot import {}", packages.join(", "))))
+            }
+            Ok((status, _, errors)) => Ok(Some(format!(
+                "cannot import the packages ({status}): {errors}"
+            ))),
+            Err(failure) => {
+                stop::check()?;
+                Ok(Some(format!("its interpreter fails: {failure}")))
+            }
+        }
+    }
+
+    /// Installs the packages again, first those that are missing, then all. True if all can be
+    /// imported then.
+    fn repair(&self) -> Result<bool, Failure> {
+        for options in [&[][..], &["--force-reinstall"]] {
+            if self.install(options).is_ok() && self.fault()?.is_none() {
+                return Ok(true);
+            }
+            stop::check()?;
+        }
+        Ok(false)
+    }
+
     /// Makes the environment anew, with all packages.
     fn make(&self) -> Result<(), Failure> {
         let python = system_python()?;
@@ -86,15 +153,16 @@ impl Environment {
             failed("cannot make a Python environment; on Debian or Ubuntu, install the package python3-venv"),
         )?;
         spinner.finish_and_clear();
-        self.install()
+        self.install(&[])
     }
 
-    fn install(&self) -> Result<(), Failure> {
+    fn install(&self, options: &[&str]) -> Result<(), Failure> {
         let spinner =
             spinner("installing FMPy, Matplotlib and SciPy (only once, about a minute) ...");
         let mut pip = Command::new(&self.interpreter);
         pip.args(["-m", "pip", "install", "--quiet"])
             .args(["--disable-pip-version-check", "--no-input"])
+            .args(options)
             .arg("-r")
             .arg(&self.requirements);
         process::run_quietly(&mut pip, LIMIT_OF_PIP).map_err(failed(

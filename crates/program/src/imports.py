@@ -1,0 +1,32 @@
+"""Imports all that the scripts in some folders import from packages, and prints what fails, one
+package a line.
+
+    python imports.py FOLDER ...
+"""
+
+import ast
+import sys
+from pathlib import Path
+
+scripts = [script for folder in sys.argv[1:] for script in Path(folder).rglob("*.py")]
+# The scripts' modules for each other, and the standard library.
+others = {name for s in scripts for name in (s.stem, s.parent.name)} | sys.stdlib_module_names
+
+imports = set()
+for script in scripts:
+    for node in ast.walk(ast.parse(script.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            imports |= {(a.name.split(".")[0], f"import {a.name}") for a in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            imports.add((node.module.split(".")[0], ast.unparse(node)))
+
+failures = {}
+for package, statement in sorted(imports):
+    if package not in others and package not in failures:
+        try:
+            exec(statement, {})
+        except Exception as error:
+            failures[package] = f"{package} ({type(error).__name__}: {error})"
+
+print("\n".join(failures.values()))
+sys.exit(bool(failures))
