@@ -32,6 +32,8 @@ fn help_names_the_commands_and_what_happens_without_one() {
         "validate",
         "Without a command",
         "target/fmu/HelicopterRotor.fmu",
+        "the link stays",
+        "130  ended by Ctrl-C",
     ] {
         assert!(help.contains(part), "{part} is missing in\n{help}");
     }
