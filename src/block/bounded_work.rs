@@ -1,5 +1,5 @@
-//! Tests of what steps and starts cost, counted in computations of the loads of a blade section, and
-//! of what the bound on it costs in accuracy.
+//! Tests of what steps and starts cost, counted in computations of the loads of a blade section,
+//! and of what the bound on it costs in accuracy.
 
 use super::{
     BlockError, Note, RotorBlock,

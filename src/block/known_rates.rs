@@ -1,6 +1,6 @@
 //! Rates and steps of the states that have been computed already. A step begins where outputs were
-//! computed or where the last step ended, so that its first stage is known there, and the step ahead
-//! of the present is kept until the present has passed it. This never changes a bit.
+//! computed or where the last step ended, so that its first stage is known there, and the step
+//! ahead of the present is kept until the present has passed it. This never changes a bit.
 
 use super::integrate::{Since, Step};
 use rotor::{OperatingPoint, Rotor, State};

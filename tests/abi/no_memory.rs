@@ -1,5 +1,5 @@
-//! Where an allocation fails, the call fails with a sentence or succeeds, and the importer lives. In
-//! the way of curl's "torture tests" each allocation of a run fails once.
+//! Where an allocation fails, the call fails with a sentence or succeeds, and the importer lives.
+//! In the way of curl's "torture tests" each allocation of a run fails once.
 
 #![cfg(all(target_os = "linux", target_env = "gnu"))]
 

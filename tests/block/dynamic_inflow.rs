@@ -100,8 +100,8 @@ fn loads_after_a_jump(mut block: RotorBlock, steps: &[f64], azimuth_step: f64) -
     [real::THRUST, real::HUB_MOMENT_1, real::HUB_MOMENT_2].map(|reference| get(&block, reference))
 }
 
-/// Communication points between the internal steps are read off the cubic between these, whose error
-/// is far below that of the steps.
+/// Communication points between the internal steps are read off the cubic between these, whose
+/// error is far below that of the steps.
 #[test]
 fn the_communication_step_does_not_change_the_answer() {
     let three_degrees = 3.0_f64.to_radians();

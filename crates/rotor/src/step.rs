@@ -90,8 +90,8 @@ impl Rotor {
         }
     }
 
-    /// Number of equal steps of `step_from`, at least 1, into which `duration` s must be divided for
-    /// a stable integration; not finite where the states' rates are not.
+    /// Number of equal steps of `step_from`, at least 1, into which `duration` s must be divided
+    /// for a stable integration; not finite where the states' rates are not.
     pub fn stable_steps(&self, point: &OperatingPoint, state: &State, duration: f64) -> f64 {
         self.division(point, state, duration).plain
     }

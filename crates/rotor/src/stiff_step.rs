@@ -2,10 +2,10 @@
 //! blades.
 //!
 //! The rates of each blade's flapping are split into a linear part, A (beta, beta'), and the rest.
-//! The linear part is integrated exactly, so that its speed does not limit the step: the exponential
-//! Heun method of order 3 (Hochbruck & Ostermann 2005, SIAM J. Numer. Anal. 43, p. 1069: the methods
-//! of three stages with c_3 = 2/3, here with c_2 = 1/3). With F the rates, D_i = F(U_i) - F(y) - A
-//! (U_i - y) and phi as in the module of that name:
+//! The linear part is integrated exactly, so that its speed does not limit the step: the
+//! exponential Heun method of order 3 (Hochbruck & Ostermann 2005, SIAM J. Numer. Anal. 43, p.
+//! 1069: the methods of three stages with c_3 = 2/3, here with c_2 = 1/3). With F the rates, D_i =
+//! F(U_i) - F(y) - A (U_i - y) and phi as in the module of that name:
 //!
 //! ```text
 //! U_2 = y + h/3 phi_1(h/3 A) F(y)
@@ -14,8 +14,8 @@
 //! ```
 //!
 //! The last term is what the method of order 2 of the same family leaves out, the exponential
-//! Rosenbrock-Euler method (same article), so that it bounds the error of the step: where lift jumps
-//! or blades hit stops, steps must be shorter.
+//! Rosenbrock-Euler method (same article), so that it bounds the error of the step: where lift
+//! jumps or blades hit stops, steps must be shorter.
 //!
 //! Where A is 0, as for the other states, it is the method of `step`. A are the slopes at the
 //! beginning of the step, by differences of all blades at once: the order does not depend on their
@@ -45,8 +45,8 @@ type Slopes = [Matrix2<f64>; MAX_FLAPPING_BLADES];
 type Flapping = [Vector2<f64>; MAX_FLAPPING_BLADES];
 
 impl Rotor {
-    /// As `step_from`, for blades that flap too fast for it; inflow, stops and rotor speed limit the
-    /// step. None if the flapping after the step were not accurate: shorter steps are needed.
+    /// As `step_from`, for blades that flap too fast for it; inflow, stops and rotor speed limit
+    /// the step. None if the flapping after the step were not accurate: shorter steps are needed.
     pub fn stiff_step_from(
         &self,
         first: &State,
