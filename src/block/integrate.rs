@@ -231,7 +231,7 @@ impl Integration<'_> {
         let speed = since.point.at_speed_of(&since.state).speed;
         let cell = self.cell(&since.point, speed);
         let division = self.rotor.division(&since.point, &since.state, cell);
-        since.left = self.count(&division)?;
+        since.left = self.count(&division, cell)?;
         since.step = Step {
             duration: cell / f64::from(since.left),
             is_stiff: division.is_stiff(),
@@ -239,10 +239,11 @@ impl Integration<'_> {
         Ok(())
     }
 
-    /// Number of steps in a division.
-    fn count(&self, division: &Division) -> Result<u32, SolveError> {
+    /// Number of steps in the division of a time, s.
+    fn count(&self, division: &Division, time: f64) -> Result<u32, SolveError> {
         let count = division.count();
-        if !count.is_finite() {
+        // A driven speed that is not finite leaves no time, either.
+        if !count.is_finite() || time.is_nan() || time <= 0.0 {
             return Err(SolveError::RatesNotFinite);
         }
         // Each step takes some work.
@@ -305,7 +306,7 @@ impl Integration<'_> {
             let division = self.rotor.division(&point, &state, part);
             let at_end = self.rotor.division(&point_at(begin + part), &state, part);
             let division = division.finer(&at_end);
-            let mut left = self.count(&division)?;
+            let mut left = self.count(&division, part)?;
             let mut step = Step {
                 duration: part / f64::from(left),
                 is_stiff: division.is_stiff(),

@@ -28,6 +28,7 @@ mod no_allocation;
 mod no_memory;
 mod ownership;
 mod pointers;
+mod promises;
 mod random;
 mod resources;
 mod serialized;
