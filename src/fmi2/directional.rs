@@ -23,6 +23,12 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
     dvUnknown: *mut fmi2Real,
 ) -> fmi2Status {
     let body = |instance: &mut Instance| {
+        let room = || {
+            // SAFETY: passed on from the caller. `along` does not exist yet or has been read, so
+            // that they may be the same memory.
+            unsafe { room(dvUnknown, nUnknown, "dvUnknown") }
+        };
+        room()?;
         // SAFETY: passed on from the caller.
         let (unknowns, knowns, along) = unsafe {
             (
@@ -31,12 +37,6 @@ pub unsafe extern "C" fn fmi2GetDirectionalDerivative(
                 elements(dvKnown, nKnown, "dvKnown")?,
             )
         };
-        let room = || {
-            // SAFETY: passed on from the caller. `along` is read before the room is used, so that
-            // they may be the same memory.
-            unsafe { room(dvUnknown, nUnknown, "dvUnknown") }
-        };
-        room()?;
         let changes = (instance.block).directional_derivative(unknowns, knowns, along)?;
         fill(room()?, changes);
         Ok(())

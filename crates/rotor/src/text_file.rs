@@ -45,7 +45,8 @@ fn check(about: &Metadata) -> Result<(), String> {
 /// process's terminal.
 fn open(path: &Path) -> std::io::Result<File> {
     let mut options = OpenOptions::new();
-    #[cfg(unix)]
+    // Miri does not know these flags.
+    #[cfg(all(unix, not(miri)))]
     std::os::unix::fs::OpenOptionsExt::custom_flags(
         &mut options,
         libc::O_NONBLOCK | libc::O_NOCTTY,
