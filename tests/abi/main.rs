@@ -8,6 +8,7 @@ mod support;
 
 mod arguments;
 mod both_interfaces;
+mod c_programs;
 mod capabilities;
 mod dependencies;
 mod directional;
