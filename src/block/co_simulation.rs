@@ -7,6 +7,7 @@ use super::{
     state_vector::write_states,
     variables::real,
 };
+use core::f64::consts::PI;
 use rotor::OperatingPoint;
 
 impl RotorBlock {
@@ -43,7 +44,7 @@ impl RotorBlock {
             let memory = advanced.map_err(|e| self.unsolved(e))?;
             self.publish(&condition, memory)?;
         }
-        self.ramp.end();
+        self.ramp.end(&self.values);
         Ok(())
     }
 
@@ -57,6 +58,7 @@ impl RotorBlock {
         }
         let rotor = self.rotor()?;
         self.workspace.work = self.budget();
+        let mean_speed = self.ramp.mean(&self.values, real::RPM, duration) * PI / 30.0;
         let (ramp, values) = (&mut self.ramp, &self.values);
         // A flight condition fails only for an integer that is no choice. The integers are constant
         // during the step, and `condition` has accepted them.
@@ -69,7 +71,7 @@ impl RotorBlock {
             known_rates: &mut self.known_rates,
             azimuth_step,
         }
-        .advance(Inputs::Moving(point_at), &self.memory, duration);
+        .advance(Inputs::Moving(point_at, mean_speed), &self.memory, duration);
         let memory = advanced.map_err(|e| self.unsolved(e))?;
         let reals_before = self.values.reals;
         self.values.reals = self.ramp.at(&self.values, duration).reals;
@@ -77,7 +79,7 @@ impl RotorBlock {
             .map_err(BlockError::from)
             .and_then(|condition| self.publish(&condition, memory));
         match published {
-            Ok(()) => self.ramp.end(),
+            Ok(()) => self.ramp.end(&self.values),
             Err(_) => self.values.reals = reals_before,
         }
         published

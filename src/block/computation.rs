@@ -19,10 +19,26 @@ use crate::host::memory::Watch;
 use rotor::{Rotor, SolveError, Work, Workspace};
 use std::{path::Path, sync::Arc};
 
-/// The warning where the search for a steady start fails.
-const NO_STEADY_START: &str = "no state was found in which inflow and flapping repeat themselves; the simulation starts from \
-     the inflow of momentum theory with the blades at rest, and settles by itself (set initialization to rest to \
-     start without inflow and without this search)";
+/// The warning where the search for a steady start fails; `budget` if it has used that up.
+fn no_steady_start(budget: Option<i32>) -> String {
+    let cause = match budget {
+        Some(budget) => format!(
+            "the search for a steady start takes more work than numerics.budget = {budget} computations of blade sections"
+        ),
+        None => "no state was found in which inflow and flapping repeat themselves".to_owned(),
+    };
+    let raise = match budget {
+        Some(_) => "raise numerics.budget, or ",
+        None => "",
+    };
+    format!(
+        "{cause}; the simulation starts from the inflow of momentum theory with the blades at rest, and settles by itself ({raise}set initialization to rest to start without inflow and without this search)"
+    )
+}
+
+/// Iterations of static inflow and of the end of the lift in one computation of the outputs, with room
+/// to spare.
+const ITERATIONS: u64 = 100;
 
 /// A rotor with the memory that it needs, and the files from which it was made.
 pub(super) struct MadeRotor {
@@ -74,6 +90,7 @@ impl RotorBlock {
         }
         let watch = Watch::begin();
         let condition = FlightCondition::new(&self.values)?;
+        self.workspace.work = self.budget();
         let memory = match self.stage {
             Stage::Running | Stage::Integrating => self.memory,
             Stage::Configuring => {
@@ -85,24 +102,29 @@ impl RotorBlock {
                 let workspace = &mut self.workspace;
                 let started = rotor.start(&condition.point, start, azimuth_step, workspace);
                 let started = started.map_err(|e| self.unsolved(e))?;
-                self.note_start(started.is_found);
+                if watch.is_short() {
+                    self.forget_rotor();
+                    self.notes.clear();
+                    return Err(BlockError::NoMemory);
+                }
+                let step = rotor.work_of_step(&condition.point, &started.state, false) as u64;
+                let has_work = self.workspace.work.check(step).is_ok();
+                self.note_start(started.is_found, has_work);
+                // The outputs of a start that has used up its budget.
+                self.workspace.work.allow_at_least(step * ITERATIONS);
                 Memory::starting(started.state)
             }
         };
-        self.workspace.work = self.budget();
-        self.publish(&condition, memory)?;
-        if self.stage == Stage::Configuring && watch.is_short() {
-            self.forget_rotor();
-            self.fresh = Fresh::Nothing;
-            return Err(BlockError::NoMemory);
-        }
-        Ok(())
+        self.publish(&condition, memory)
     }
 
-    /// Warns once if the start has no steady or periodic state.
-    fn note_start(&mut self, is_found: bool) {
+    /// Warns once if the start has no steady or periodic state. `has_work`: whether the budget would
+    /// have allowed more.
+    fn note_start(&mut self, is_found: bool, has_work: bool) {
         if !is_found && self.has_start {
-            self.notes.push(Note::Warning(NO_STEADY_START.to_owned()));
+            let budget = self.values.integers[integer::NUMERICS__BUDGET];
+            let warning = no_steady_start((!has_work).then_some(budget));
+            self.notes.push(Note::Warning(warning));
         }
         self.has_start = is_found;
     }

@@ -5,15 +5,15 @@
 //! enough for the states.
 //!
 //! While the inputs stay constant, a communication step goes on from the last point that the steps
-//! reached, and a communication point between two of these is read off the cubic between them, for
-//! which the step ahead is computed and kept. So no step is computed twice, however short the
-//! communication steps are, and the results do not depend on them. The first communication step
-//! after a change of the inputs ends with a shorter step instead, because the inputs may change
-//! again at once. Inputs that move within a communication step begin a grid of their own at its
+//! reached, and a communication point between two of these is read off the motion between them, for
+//! which the step ahead is computed and kept. So after the first communication step no step is
+//! computed twice, however short the communication steps are, and the results hardly depend on them.
+//! The first communication step after a change of the inputs ends with a shorter step instead,
+//! because the inputs may change again at once. Inputs that move within a communication step begin a grid of their own at its
 //! beginning.
 
 use super::known_rates::KnownRates;
-use rotor::{Division, Drive, OperatingPoint, Rotor, SolveError, State, Workspace};
+use rotor::{Division, Drive, OperatingPoint, Rotor, SolveError, State, StiffStep, Workspace};
 use std::sync::Arc;
 
 /// The states, and the position on the grid.
@@ -50,18 +50,37 @@ pub struct Step {
     pub is_stiff: bool,
 }
 
+/// A step that was taken.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Stepped {
+    /// The states at its end.
+    Plain(State),
+    Stiff(StiffStep),
+}
+
+impl Stepped {
+    /// The states at its end.
+    pub fn end(&self) -> State {
+        match self {
+            Self::Plain(end) => *end,
+            Self::Stiff(step) => step.end,
+        }
+    }
+}
+
 /// The operating point during a communication step.
 pub enum Inputs<F> {
     Constant(OperatingPoint),
-    /// A function of the time since the beginning of the communication step, s.
-    Moving(F),
+    /// A function of the time since the beginning of the communication step, s, and the mean of the
+    /// imposed rotor speed in it, rad/s.
+    Moving(F, f64),
 }
 
 impl<F: FnMut(f64) -> OperatingPoint> Inputs<F> {
     fn at(&mut self, offset: f64) -> OperatingPoint {
         match self {
             Self::Constant(point) => *point,
-            Self::Moving(point_at) => point_at(offset),
+            Self::Moving(point_at, _) => point_at(offset),
         }
     }
 }
@@ -72,7 +91,10 @@ pub const LONGEST_CELL: f64 = 0.02;
 /// Maximum number of halved steps in a cell.
 const MAX_STEPS_IN_CELL: u32 = 1 << 24;
 
-/// Part of a step within which a point counts as reached.
+/// How many times as much work as is allowed is hopeless: rotors may need short steps only at first.
+const HOPELESS: f64 = 4.0;
+
+/// Fraction of a step after which its end counts as reached.
 const REACHED: f64 = 1.0 - 1e-9;
 
 /// Largest change of settled states in a step, as a fraction of tip speed plus airspeed.
@@ -128,14 +150,17 @@ impl Integration<'_> {
         duration: f64,
     ) -> Result<Memory, SolveError> {
         if !self.rotor.has_memory(&inputs.at(0.0)) {
-            let speed = mean_speed(&mut inputs, duration);
+            let speed = match inputs {
+                Inputs::Constant(point) => point.speed,
+                Inputs::Moving(_, mean_speed) => mean_speed,
+            };
             let mut state = memory.state;
             state.azimuth += speed * duration;
             return Ok(Memory::starting(state));
         }
         match inputs {
             Inputs::Constant(point) => self.at_constant_inputs(&point, memory, duration),
-            Inputs::Moving(point_at) => {
+            Inputs::Moving(point_at, _) => {
                 let state = self.with_moving_inputs(point_at, &memory.state, duration)?;
                 Ok(Memory::starting(state))
             }
@@ -157,7 +182,7 @@ impl Integration<'_> {
             left: 0,
         });
         let mut remaining = since.elapsed + duration;
-        if known.is_none() {
+        if known.is_none() || duration > LONGEST_CELL {
             self.refuse_hopeless(point, &since.state, remaining)?;
         }
         let mut present = None;
@@ -166,7 +191,7 @@ impl Integration<'_> {
                 self.begin_cell(&mut since)?;
             }
             let is_partial = remaining < since.step.duration * REACHED;
-            let state = if is_partial && known.is_none() {
+            let stepped = if is_partial && known.is_none() {
                 let part = Step {
                     duration: remaining,
                     ..since.step
@@ -175,17 +200,25 @@ impl Integration<'_> {
             } else {
                 self.step_ahead(&since)?
             };
-            let Some(state) = state else {
-                since.refine()?;
+            let Some(stepped) = stepped else {
+                // Until the step that was too long is out of the question.
+                let refused = since.step.duration.min(remaining);
+                while since.step.duration >= refused {
+                    since.refine()?;
+                }
                 continue;
             };
             if is_partial {
                 present = Some(match known {
-                    Some(_) => self.between(&since, &state, remaining)?,
-                    None => state,
+                    Some(_) => self.between(&since, &stepped, remaining)?,
+                    None => stepped.end(),
                 });
                 break;
             }
+            // Steps that are known cost nothing, but there may be too many of them, too.
+            self.workspace.work.check(1)?;
+            self.workspace.work.count(1);
+            let state = stepped.end();
             remaining = (remaining - since.step.duration).max(0.0);
             // A rotor that a torque drives never settles: even a small torque moves it in the end.
             let change = state.largest_change(&since.state) / since.step.duration;
@@ -206,8 +239,8 @@ impl Integration<'_> {
         })
     }
 
-    /// Fails at once where the work of a communication step would exhaust what is allowed. A rotor
-    /// that settles may stop early.
+    /// Fails at once where the work of a communication step, if it goes on as it begins, far exceeds
+    /// what is allowed. A rotor that can settle may stop early and is not refused.
     fn refuse_hopeless(
         &self,
         point: &OperatingPoint,
@@ -218,7 +251,7 @@ impl Integration<'_> {
         let division = self.rotor.division(point, state, cell);
         let steps = duration / cell * division.count();
         let work = steps * self.rotor.work_of_step(point, state, division.is_stiff());
-        if work > self.workspace.work.left() as f64
+        if work > HOPELESS * self.workspace.work.left() as f64
             && self.rotor.evaluate(point, state).never_settles()
         {
             return Err(self.workspace.work.exceeded());
@@ -242,8 +275,8 @@ impl Integration<'_> {
     /// Number of steps in the division of a time, s.
     fn count(&self, division: &Division, time: f64) -> Result<u32, SolveError> {
         let count = division.count();
-        // A driven speed that is not finite leaves no time, either.
-        if !count.is_finite() || time.is_nan() || time <= 0.0 {
+        // An infinite rotor speed makes the cell empty.
+        if !count.is_finite() || time <= 0.0 {
             return Err(SolveError::RatesNotFinite);
         }
         // Each step takes some work.
@@ -254,21 +287,27 @@ impl Integration<'_> {
     }
 
     /// The states one step ahead of the last point; none if the step is too long for the flapping.
-    fn step_ahead(&mut self, since: &Since) -> Result<Option<State>, SolveError> {
+    fn step_ahead(&mut self, since: &Since) -> Result<Option<Stepped>, SolveError> {
         let known = self.known_rates.step_ahead(self.rotor, since);
         if known.is_some() {
             return Ok(known);
         }
-        let state = self.step(&since.state, |_| since.point, since.step)?;
-        if let Some(state) = &state {
-            self.known_rates.keep_step_ahead(self.rotor, since, state);
+        let stepped = self.step(&since.state, |_| since.point, since.step)?;
+        if let Some(stepped) = &stepped {
+            self.known_rates.keep_step_ahead(self.rotor, since, stepped);
         }
-        Ok(state)
+        Ok(stepped)
     }
 
-    /// The states `elapsed` s after the last point, where the step from there ends at `next`.
-    fn between(&mut self, since: &Since, next: &State, elapsed: f64) -> Result<State, SolveError> {
-        let (rotor, point) = (self.rotor, &since.point);
+    /// The states `elapsed` s after the last point, in the step from there: on the cubic between its
+    /// ends, but for flapping that is too fast for a cubic.
+    fn between(
+        &mut self,
+        since: &Since,
+        stepped: &Stepped,
+        elapsed: f64,
+    ) -> Result<State, SolveError> {
+        let (rotor, point, next) = (self.rotor, &since.point, &stepped.end());
         let first = self.first_rates(point, &since.state)?;
         let last = match self.known_rates.find(rotor, point, next) {
             Some(rates) => rates,
@@ -280,7 +319,11 @@ impl Integration<'_> {
         let duration = since.step.duration;
         let ends = (next, &last);
         let part = elapsed / duration;
-        Ok(since.state.between(&first, ends, part, duration))
+        let mut state = since.state.between(&first, ends, part, duration);
+        if let Stepped::Stiff(step) = stepped {
+            step.replace_flapping(&mut state, elapsed);
+        }
+        Ok(state)
     }
 
     fn with_moving_inputs(
@@ -315,8 +358,8 @@ impl Integration<'_> {
             while left > 0 {
                 let from = begin + f64::from(done) * step.duration;
                 match self.step(&state, |offset| point_at(from + offset), step)? {
-                    Some(next) => {
-                        state = next;
+                    Some(stepped) => {
+                        state = stepped.end();
                         left -= 1;
                         done += 1;
                     }
@@ -337,14 +380,15 @@ impl Integration<'_> {
         start: &State,
         mut point_at: impl FnMut(f64) -> OperatingPoint,
         step: Step,
-    ) -> Result<Option<State>, SolveError> {
+    ) -> Result<Option<Stepped>, SolveError> {
         let first = self.first_rates(&point_at(0.0), start)?;
         let (rotor, workspace) = (self.rotor, &mut *self.workspace);
         if step.is_stiff {
-            rotor.stiff_step_from(&first, point_at, start, step.duration, workspace)
+            let step = rotor.stiff_step_from(&first, point_at, start, step.duration, workspace)?;
+            Ok(step.map(Stepped::Stiff))
         } else {
-            let state = rotor.step_from(&first, point_at, start, step.duration, workspace)?;
-            Ok(Some(state))
+            let end = rotor.step_from(&first, point_at, start, step.duration, workspace)?;
+            Ok(Some(Stepped::Plain(end)))
         }
     }
 
@@ -369,15 +413,6 @@ impl Integration<'_> {
         let rates = self.rotor.rates(point, state, self.workspace)?;
         self.known_rates.keep_last(self.rotor, point, state, &rates);
         Ok(rates)
-    }
-}
-
-/// The mean rotor speed in a communication step, in which it changes linearly.
-fn mean_speed<F: FnMut(f64) -> OperatingPoint>(inputs: &mut Inputs<F>, duration: f64) -> f64 {
-    let speed = inputs.at(0.0).speed;
-    match inputs {
-        Inputs::Constant(_) => speed,
-        Inputs::Moving(_) => 0.5 * (speed + inputs.at(duration).speed),
     }
 }
 

@@ -1,20 +1,21 @@
-//! Rates and steps of the states that have been computed already. A step begins where outputs were
-//! computed or where the last step ended, so that its first stage is known there, and the step
-//! ahead of the present is kept until the present has passed it. This never changes a bit.
+//! Rates and steps that have been computed already. The outputs need the rates at the end of each
+//! step, so the next step begins with known rates. The step ahead of the present is kept until the
+//! present has passed it. No result changes, not even in its last bit.
 
-use super::integrate::{Since, Step};
+use super::integrate::{Since, Step, Stepped};
 use rotor::{OperatingPoint, Rotor, State};
 use std::sync::Arc;
 
 /// The last rates of each kind, and the last step.
 #[derive(Debug, Default)]
 pub struct KnownRates {
-    /// With the outputs.
+    /// The rates with the outputs.
     published: Option<Known>,
-    /// Where the last step began.
+    /// The rates where the last step began.
     last: Option<Known>,
-    /// Where it ended.
+    /// The rates where it ended.
     next: Option<Known>,
+    /// The step ahead of the present.
     step: Option<KnownStep>,
 }
 
@@ -25,7 +26,7 @@ struct KnownStep {
     point: OperatingPoint,
     start: State,
     step: Step,
-    end: State,
+    stepped: Stepped,
 }
 
 /// Rates, and the rotor, operating point and state that they belong to.
@@ -81,24 +82,24 @@ impl KnownRates {
         self.next = Some(Known::new(rotor, point, state, rates));
     }
 
-    /// The states at the end of the step from the last point, if they are known.
-    pub fn step_ahead(&self, rotor: &Arc<Rotor>, since: &Since) -> Option<State> {
+    /// The step from the last point, if it is known.
+    pub fn step_ahead(&self, rotor: &Arc<Rotor>, since: &Since) -> Option<Stepped> {
         let known = self.step.as_ref()?;
         let fits = Arc::ptr_eq(&known.rotor, rotor)
             && known.point == since.point
             && known.start == since.state
             && known.step == since.step;
-        fits.then_some(known.end)
+        fits.then_some(known.stepped)
     }
 
-    /// Keeps the states at the end of the step from the last point.
-    pub fn keep_step_ahead(&mut self, rotor: &Arc<Rotor>, since: &Since, end: &State) {
+    /// Keeps the step from the last point.
+    pub fn keep_step_ahead(&mut self, rotor: &Arc<Rotor>, since: &Since, stepped: &Stepped) {
         self.step = Some(KnownStep {
             rotor: Arc::clone(rotor),
             point: since.point,
             start: since.state,
             step: since.step,
-            end: *end,
+            stepped: *stepped,
         });
     }
 }

@@ -3,6 +3,7 @@
 use super::{
     Values,
     limited_inputs::limited,
+    references::Reference,
     variables::{INPUTS, REALS, RealRef},
 };
 
@@ -35,10 +36,32 @@ impl Ramp {
         self.slopes.iter().any(|slope| *slope != 0.0)
     }
 
-    /// Ends a step.
-    pub fn end(&mut self) {
+    /// Ends a step at these values. An input that has reached an end of its range moves no more.
+    pub fn end(&mut self, values: &Values) {
         self.past = self.slopes;
+        let inputs = self.past.iter_mut().zip(REALS.iter()).zip(values.reals);
+        for ((slope, variable), value) in inputs {
+            let stays =
+                (*slope > 0.0 && value >= variable.max) || (*slope < 0.0 && value <= variable.min);
+            if stays {
+                *slope = 0.0;
+            }
+        }
         self.slopes = [0.0; INPUTS];
+    }
+
+    /// The mean of an input in a step of `duration` s.
+    pub fn mean(&self, start: &Values, input: RealRef, duration: f64) -> f64 {
+        let (from, slope) = (start.reals[input], self.slopes[input.index()]);
+        let end = from + slope * duration;
+        let to = limited(input.variable(), end);
+        // It stays at the end of its range once it has reached that.
+        let moving = if to == end {
+            1.0
+        } else {
+            (to - from) / (end - from)
+        };
+        0.5 * (from + to) * moving + to * (1.0 - moving)
     }
 
     /// Begins a step at the values `start`.

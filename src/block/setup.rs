@@ -407,7 +407,7 @@ mod tests {
             block.start()?;
             let point = FlightCondition::new(block.values())?.point;
             let rotor = block.rotor()?;
-            Ok(rotor.stable_steps(&point, &block.memory.state, 0.01))
+            Ok(rotor.division(&point, &block.memory.state, 0.01).plain)
         };
         let default = steps(&mut flapping_block("")?)?;
         let mut large = flapping_block("")?;

@@ -166,6 +166,7 @@ impl Snapshot {
                 || !is_point_finite(&since.point)
                 || !(0.0..=LONGEST_CELL).contains(&since.elapsed)
                 || !(0.0..=LONGEST_CELL).contains(&since.step.duration)
+                || (since.left > 0 && since.step.duration == 0.0)
                 || (since.left > 0 && since.elapsed > since.step.duration)
                 || (since.left == 0 && since.elapsed > 0.0))
         {
@@ -411,6 +412,7 @@ mod tests {
             (0.0, f64::NAN, 1),
             (0.01, 0.005, 1),
             (0.01, 0.02, 0),
+            (0.0, 0.0, 1),
         ] {
             assert_eq!(refused(&|s| late(s, wrong)), "the integration");
         }

@@ -28,10 +28,12 @@ pub enum SolveError {
     /// More work than the workspace allows, in computations of a section's loads.
     #[error("it takes more than {0} computations of blade sections")]
     TooMuchWork(u64),
-    /// A step in time.
-    #[error("the rates of inflow and flapping are not finite")]
+    /// In a step in time: the states cannot be integrated.
+    #[error("the rates of inflow, flapping or rotor speed are not finite")]
     RatesNotFinite,
-    /// A step in time.
-    #[error("the blades flap faster than steps can follow")]
+    /// In a step in time: not even the shortest steps are accurate.
+    #[error(
+        "the blades flap faster than steps can follow; give them a softer hinge spring or a larger inertia"
+    )]
     FlappingTooFast,
 }

@@ -102,6 +102,7 @@ pub use rotor::Rotor;
 pub use start::{Start, Started};
 pub use state::State;
 pub use step::Division;
+pub use stiff_step::StiffStep;
 pub use tip_path::TipPath;
 pub use work::Work;
 pub use workspace::Workspace;

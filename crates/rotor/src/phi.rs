@@ -23,13 +23,28 @@ pub struct Phi {
 const SMALL: f64 = 0.5;
 /// Terms of the series, which leave out less than one part in 1e17.
 const TERMS: u32 = 14;
-/// Bound on the doublings: beyond it the numbers are not finite.
-const MAX_DOUBLINGS: u32 = 1100;
-
-/// phi_1 and phi_2 of `matrix`: the power series for a part of it, doubled until the matrix is
-/// whole again. With z doubled, phi_1 and phi_2 become (e^z + 1) phi_1/2 and (e^z phi_2 + phi_1 +
-/// phi_2)/4. NaN if the matrix is not finite.
+/// phi_1 and phi_2 of `matrix`: the power series for a part of it, doubled until the matrix is whole
+/// again. With z doubled, phi_1 and phi_2 become (e^z + 1) phi_1/2 and (e^z phi_2 + phi_1 + phi_2)/4.
+/// NaN if the matrix is not finite.
+///
+/// The matrix is balanced first: with a unit of the second quantity in which the two numbers beside the
+/// diagonal have the same size, the norm is that of the motion, and few doublings are needed.
 pub fn phi(matrix: &Matrix2<f64>) -> Phi {
+    let unit = libm::sqrt((matrix[(1, 0)] / matrix[(0, 1)]).abs());
+    if !(unit.is_finite() && unit > 0.0) {
+        return of_balanced(matrix);
+    }
+    let change = |m: &Matrix2<f64>, unit: f64| {
+        Matrix2::new(m[(0, 0)], m[(0, 1)] * unit, m[(1, 0)] / unit, m[(1, 1)])
+    };
+    let phi = of_balanced(&change(matrix, unit));
+    Phi {
+        first: change(&phi.first, 1.0 / unit),
+        second: change(&phi.second, 1.0 / unit),
+    }
+}
+
+fn of_balanced(matrix: &Matrix2<f64>) -> Phi {
     let norm = matrix.norm();
     if !norm.is_finite() {
         let none = Matrix2::from_element(f64::NAN);
@@ -38,9 +53,10 @@ pub fn phi(matrix: &Matrix2<f64>) -> Phi {
             second: none,
         };
     }
+    // At most 1026 times, as the norm is finite.
     let mut doublings = 0;
     let mut part = 1.0;
-    while norm * part > SMALL && doublings < MAX_DOUBLINGS {
+    while norm * part > SMALL {
         part *= 0.5;
         doublings += 1;
     }
@@ -88,6 +104,44 @@ mod tests {
             let half = libm::sin(0.5 * x) / x;
             assert!((first[(0, 1)] - 2.0 * half * half * x).abs() < 1e-12, "{x}");
             assert!((second[(0, 0)] - 2.0 * half * half).abs() < 1e-12, "{x}");
+        }
+    }
+
+    /// Of a blade: damped oscillations whose eigenvalues, x (-z +- i sqrt(1 - z^2)), give the functions
+    /// in complex numbers. phi_1 of the lower left number is sin(b)/b e^a c, and so on.
+    #[test]
+    fn of_a_damped_blade_they_satisfy_their_equations() {
+        for (frequency, damping) in [
+            (10.0, 0.1),
+            (50.0, 0.5),
+            (5e3, 0.01),
+            (5e4, 0.9),
+            (300.0, 3.0),
+        ] {
+            let h = 1e-3;
+            let (x, c) = (frequency * h, 2.0 * damping * frequency * h);
+            let m = Matrix2::new(0.0, h, -x * frequency, -c);
+            let Phi { first, second } = phi(&m);
+            // e^M = 1 + M phi_1 in closed form.
+            let half = 0.5 * c;
+            let root = x * x - half * half;
+            let (cos, sinc) = if root > 0.0 {
+                let b = libm::sqrt(root);
+                (libm::cos(b), libm::sin(b) / b)
+            } else {
+                let b = libm::sqrt(-root);
+                (libm::cosh(b), libm::sinh(b) / b)
+            };
+            let decay = libm::exp(-half);
+            let corner = decay * (cos + half * sinc);
+            let exponential = Matrix2::identity() + m * first;
+            assert!((exponential[(0, 0)] - corner).abs() < 1e-9, "{frequency}");
+            let lower = -x * frequency * sinc * decay;
+            let off = (exponential[(1, 0)] - lower).abs() / frequency;
+            assert!(off < 1e-9, "{frequency}: {off:e}");
+            // phi_1 = 1 + M phi_2.
+            let rest = Matrix2::identity() + m * second - first;
+            assert!(rest[(0, 0)].abs() < 1e-9, "{frequency}: {rest}");
         }
     }
 

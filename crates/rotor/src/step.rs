@@ -9,8 +9,8 @@ use super::{
 /// undamped motion and 2.5 for damped.
 const MAX_PRODUCT: f64 = 1.0;
 
-/// Number of plain steps for a stiff one, which costs up to twice as much, from which blades count
-/// as stiff.
+/// Blades count as stiff if so many plain steps would replace one stiff step. A stiff step costs up to
+/// twice as much as a plain one.
 const STIFF: f64 = 8.0;
 
 /// Into how many equal steps, at least 1, a time must be divided for a stable integration; not
@@ -40,9 +40,11 @@ impl Division {
 
     /// The division that is stable where either is.
     pub fn finer(&self, other: &Self) -> Self {
+        // Also the one that is no number.
+        let larger = |a: f64, b: f64| if a > b || a.is_nan() { a } else { b };
         Self {
-            plain: self.plain.max(other.plain),
-            stiff: self.stiff.max(other.stiff),
+            plain: larger(self.plain, other.plain),
+            stiff: larger(self.stiff, other.stiff),
         }
     }
 }
@@ -83,20 +85,18 @@ impl Rotor {
     /// How `duration` s must be divided.
     pub fn division(&self, point: &OperatingPoint, state: &State, duration: f64) -> Division {
         let fastest = rates::fastest(&self.evaluate(point, state), duration);
-        let count = |rate: f64| libm::ceil((duration * rate / MAX_PRODUCT).max(1.0));
+        let count = |rate: f64| {
+            let count = libm::ceil(duration * rate / MAX_PRODUCT);
+            if count < 1.0 { 1.0 } else { count }
+        };
         Division {
             plain: count(fastest.flapping + fastest.others),
             stiff: count(fastest.others),
         }
     }
 
-    /// Number of equal steps of `step_from`, at least 1, into which `duration` s must be divided
-    /// for a stable integration; not finite where the states' rates are not.
-    pub fn stable_steps(&self, point: &OperatingPoint, state: &State, duration: f64) -> f64 {
-        self.division(point, state, duration).plain
-    }
-
-    /// Work of a step, at least, in computations of a section's loads.
+    /// Work of a step whose first rates are not known, without iterations of static inflow, in
+    /// computations of a section's loads.
     pub fn work_of_step(&self, point: &OperatingPoint, state: &State, is_stiff: bool) -> f64 {
         let stages = if is_stiff { 5.0 } else { 3.0 };
         let positions = self.evaluate(point, state).positions.len();

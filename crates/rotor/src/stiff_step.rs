@@ -13,13 +13,14 @@
 //! y_1 = y + h phi_1(h A) F(y) + 3h/2 phi_2(h A) D_3
 //! ```
 //!
-//! The last term is what the method of order 2 of the same family leaves out, the exponential
-//! Rosenbrock-Euler method (same article), so that it bounds the error of the step: where lift
-//! jumps or blades hit stops, steps must be shorter.
+//! The last term is the difference from the exponential Euler method, y + h phi_1(h A) F(y), which is
+//! less accurate. It is a cautious estimate of the error of the step: it is large where lift jumps or
+//! blades hit stops, and steps must be shorter there. With t for h in front of and within phi, and t/h
+//! times the last term, y_1 is the state within the step, of the same order in h.
 //!
-//! Where A is 0, as for the other states, it is the method of `step`. A are the slopes at the
-//! beginning of the step, by differences of all blades at once: the order does not depend on their
-//! accuracy.
+//! Where A = 0, as for the other states, this is the method of `step`. A holds the slopes of each
+//! blade's acceleration at the beginning of the step, from differences in which all blades move at
+//! once. Its accuracy affects the error of the method, but not its order.
 
 use super::{
     disc::Flap,
@@ -32,10 +33,11 @@ use super::{
 };
 use nalgebra::{Matrix2, Vector2};
 
-/// Difference of the flap angles for the slopes, rad; of the flap rates, per rotor speed.
+/// Difference of the flap angles for the slopes, rad; of the flap rates, times the rotor speed.
 const DIFFERENCE: f64 = 1e-6;
 
-/// Largest error of a step in the flap angles, rad; in the flap rates, per rotor speed.
+/// Largest estimated error of a step in the flap angles, rad; in the flap rates, times the rotor speed
+/// (at least 1 rad/s).
 const TOLERANCE: f64 = 1e-6;
 
 /// A of each blade.
@@ -44,9 +46,65 @@ type Slopes = [Matrix2<f64>; MAX_FLAPPING_BLADES];
 /// (beta, beta') of each blade, or their changes.
 type Flapping = [Vector2<f64>; MAX_FLAPPING_BLADES];
 
+/// A step of stiff blades.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StiffStep {
+    /// The state at its end.
+    pub end: State,
+    motion: Motion,
+    /// D_3 of each blade.
+    rest: Flapping,
+    duration: f64,
+}
+
+/// The linear part of the motion of stiff blades.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Motion {
+    blades: usize,
+    start: State,
+    /// F(y).
+    first: State,
+    slopes: Slopes,
+}
+
+impl Motion {
+    /// Replaces the flapping of `state` by that after a time, s, with `factor` phi_2 times `rest`, and
+    /// returns that last term.
+    fn replace(&self, state: &mut State, time: f64, factor: f64, rest: &Flapping) -> Flapping {
+        let mut last = [Vector2::zeros(); MAX_FLAPPING_BLADES];
+        for k in 0..self.blades {
+            let phi = phi(&(self.slopes[k] * time));
+            last[k] = phi.second * rest[k] * factor;
+            let linear = phi.first * vector(&self.first.flaps[k]) * time;
+            let flap = vector(&self.start.flaps[k]) + linear + last[k];
+            state.flaps[k] = Flap {
+                angle: flap.x,
+                rate: flap.y,
+            };
+        }
+        last
+    }
+
+    /// D of each blade at a state with these rates.
+    fn rest(&self, rates: &State, at: &State) -> Flapping {
+        core::array::from_fn(|k| {
+            let moved = vector(&at.flaps[k]) - vector(&self.start.flaps[k]);
+            vector(&rates.flaps[k]) - vector(&self.first.flaps[k]) - self.slopes[k] * moved
+        })
+    }
+}
+
+impl StiffStep {
+    /// Replaces the flapping of `state` by that within the step, `time` s after its beginning.
+    pub fn replace_flapping(&self, state: &mut State, time: f64) {
+        let factor = 1.5 * time * time / self.duration;
+        self.motion.replace(state, time, factor, &self.rest);
+    }
+}
+
 impl Rotor {
-    /// As `step_from`, for blades that flap too fast for it; inflow, stops and rotor speed limit
-    /// the step. None if the flapping after the step were not accurate: shorter steps are needed.
+    /// Like `step_from`, for blades that flap too fast for it. Inflow, stops and rotor speed still limit
+    /// the step. None if the flapping would not be accurate enough; take shorter steps.
     pub fn stiff_step_from(
         &self,
         first: &State,
@@ -54,73 +112,57 @@ impl Rotor {
         state: &State,
         duration: f64,
         workspace: &mut Workspace,
-    ) -> Result<Option<State>, SolveError> {
-        let stages = self.stiff_stages(first, &mut point_at, state, duration, workspace);
-        match stages {
+    ) -> Result<Option<StiffStep>, SolveError> {
+        let point = point_at(0.0);
+        let motion = Motion {
+            blades: self.flapping_blades(),
+            start: *state,
+            first: *first,
+            slopes: self.flapping_slopes(first, &point, state, workspace)?,
+        };
+        match self.stiff_stages(motion, &mut point_at, duration, workspace) {
             Err(SolveError::TooMuchWork(limit)) => Err(SolveError::TooMuchWork(limit)),
             // Within too long a step the motion may lead to where no rates exist.
             Err(_) => Ok(None),
-            Ok((next, error)) => {
-                let speed = point_at(0.0).at_speed_of(state).speed.abs().max(1.0);
-                let blades = &error[..self.flapping_blades()];
-                let is_accurate = blades
+            Ok((step, error)) => {
+                let speed = point.at_speed_of(state).speed.abs().max(1.0);
+                let is_accurate = error
                     .iter()
                     .all(|e| e.x.abs() <= TOLERANCE && e.y.abs() <= TOLERANCE * speed);
-                Ok(is_accurate.then_some(next))
+                Ok(is_accurate.then_some(step))
             }
         }
     }
 
-    /// The state after the step, and for each blade the last term of its flapping.
+    /// The step, and the last term of each blade's flapping.
     fn stiff_stages(
         &self,
-        first: &State,
+        motion: Motion,
         point_at: &mut impl FnMut(f64) -> OperatingPoint,
-        state: &State,
         duration: f64,
         workspace: &mut Workspace,
-    ) -> Result<(State, Flapping), SolveError> {
-        let slopes = self.flapping_slopes(first, &point_at(0.0), state, workspace)?;
-        // D of each blade.
-        let rest = |rates: &State, at: &State| -> Flapping {
-            core::array::from_fn(|k| {
-                let moved = vector(&at.flaps[k]) - vector(&state.flaps[k]);
-                vector(&rates.flaps[k]) - vector(&first.flaps[k]) - slopes[k] * moved
-            })
-        };
-        // Replaces the flapping of `plain` by that after a time with the part of D, and returns
-        // that part.
-        let replace = |plain: &mut State, time: f64, factor: f64, rest: &Flapping| -> Flapping {
-            let mut parts = [Vector2::zeros(); MAX_FLAPPING_BLADES];
-            for k in 0..self.flapping_blades() {
-                let phi = phi(&(slopes[k] * time));
-                parts[k] = phi.second * rest[k] * (factor * time);
-                let linear = phi.first * vector(&first.flaps[k]) * time;
-                let flap = vector(&state.flaps[k]) + linear + parts[k];
-                plain.flaps[k] = Flap {
-                    angle: flap.x,
-                    rate: flap.y,
-                };
-            }
-            parts
-        };
+    ) -> Result<(StiffStep, Flapping), SolveError> {
+        let Motion { start, first, .. } = &motion;
         let (third, two_thirds) = (duration / 3.0, duration * 2.0 / 3.0);
         let none = [Vector2::zeros(); MAX_FLAPPING_BLADES];
-        let mut at_third = state.plus(third, first);
-        replace(&mut at_third, third, 0.0, &none);
+        let mut at_third = start.plus(third, first);
+        motion.replace(&mut at_third, third, 0.0, &none);
         let second = self.rates(&point_at(third), &at_third, workspace)?;
-        let mut at_two_thirds = state.plus(two_thirds, &second);
-        replace(
-            &mut at_two_thirds,
-            two_thirds,
-            2.0,
-            &rest(&second, &at_third),
-        );
+        let rest = motion.rest(&second, &at_third);
+        let mut at_two_thirds = start.plus(two_thirds, &second);
+        motion.replace(&mut at_two_thirds, two_thirds, duration * 4.0 / 3.0, &rest);
         let last = self.rates(&point_at(two_thirds), &at_two_thirds, workspace)?;
-        let mut next = state.plus(duration * 0.25, first);
-        next = next.plus(duration * 0.75, &last);
-        let error = replace(&mut next, duration, 1.5, &rest(&last, &at_two_thirds));
-        Ok((next, error))
+        let rest = motion.rest(&last, &at_two_thirds);
+        let mut end = start.plus(duration * 0.25, first);
+        end = end.plus(duration * 0.75, &last);
+        let error = motion.replace(&mut end, duration, duration * 1.5, &rest);
+        let step = StiffStep {
+            end,
+            motion,
+            rest,
+            duration,
+        };
+        Ok((step, error))
     }
 
     /// A of each blade at the beginning of a step.

@@ -6,8 +6,8 @@ use core::cell::Cell;
 
 /// Counts computations of the loads of a section, and bounds them.
 ///
-/// A step costs the number of blades (or of the azimuths over which a disc is averaged) times that
-/// of elements, stages and substeps, times the iterations of static inflow.
+/// A step costs the number of blades (or of azimuths of a disc) times that of elements and of stages,
+/// and with static inflow the iterations.
 #[derive(Debug, Clone)]
 pub struct Work {
     done: Cell<u64>,
@@ -40,14 +40,19 @@ impl Work {
         self.limit.saturating_sub(self.done())
     }
 
-    /// Counts computations, or others that cost as much.
-    pub(crate) fn count(&self, computations: u64) {
+    /// Counts computations, or what costs as much.
+    pub fn count(&self, computations: u64) {
         self.done.set(self.done.get().wrapping_add(computations));
+    }
+
+    /// Allows at least `computations` from now on.
+    pub fn allow_at_least(&mut self, computations: u64) {
+        self.limit = self.limit.max(self.done().saturating_add(computations));
     }
 
     /// An error if there is less left than `computations` take. Asked before each computation of
     /// the whole rotor, so that the bound is passed by one of these at most.
-    pub(crate) fn check(&self, computations: u64) -> Result<(), SolveError> {
+    pub fn check(&self, computations: u64) -> Result<(), SolveError> {
         if computations <= self.left() {
             return Ok(());
         }

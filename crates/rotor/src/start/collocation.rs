@@ -254,8 +254,9 @@ impl<'a> Collocation<'a> {
         let mut slow_steps = 0;
         for _ in 0..MAX_STEPS {
             dual.work = Work::up_to(plain.work.left() / DUAL_WORK);
-            let slopes = self.slopes(&dual_point, &values, &mut dual).ok()?;
+            let slopes = self.slopes(&dual_point, &values, &mut dual);
             plain.work.count(DUAL_WORK * dual.work.done());
+            let slopes = slopes.ok()?;
             let step = slopes.lu().solve(&-&residual);
             let Some(step) = step.filter(|step| step.norm().is_finite()) else {
                 return Some((values, false));
@@ -314,7 +315,9 @@ impl<'a> Collocation<'a> {
     ) -> Option<State> {
         let mut plain_workspace = Workspace::new(self.rotor);
         plain_workspace.work = Work::up_to(workspace.work.left());
-        let (values, is_found) = self.solve(plain, found, &mut plain_workspace)?;
+        let solved = self.solve(plain, found, &mut plain_workspace);
+        workspace.work.count(plain_workspace.work.done());
+        let (values, is_found) = solved?;
         if !is_found {
             return None;
         }

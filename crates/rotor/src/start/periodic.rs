@@ -110,7 +110,10 @@ pub(super) fn steps(
         return None;
     }
     let cells = cells(rotor, point, longest);
-    let steps = cells * rotor.stable_steps(point, state, passage(rotor, point) / cells);
+    let steps = cells
+        * rotor
+            .division(point, state, passage(rotor, point) / cells)
+            .plain;
     // A fine azimuth step is the user's choice.
     (steps <= MAX_STEPS.max(2.0 * cells)).then_some(steps)
 }

@@ -754,7 +754,7 @@ fn blades_of_a_stopped_rotor_fall_and_swing() {
     let mut workspace = Workspace::new(&rotor);
     let mut lowest = 0.0_f64;
     for _ in 0..2000 {
-        let steps = rotor.stable_steps(&point, &state, 0.005);
+        let steps = rotor.division(&point, &state, 0.005).plain;
         for _ in 0..steps as u32 {
             let next = rotor.step(|_| point, &state, 0.005 / steps, &mut workspace);
             state = next.unwrap();
@@ -859,7 +859,7 @@ fn a_falling_blade_comes_to_rest_on_its_stop() {
     let mut state = State::default();
     let (mut lowest, mut rebound, mut most) = (0.0_f64, -0.1_f64, 0.0_f64);
     for _ in 0..400 {
-        let steps = rotor.stable_steps(&point, &state, 0.005);
+        let steps = rotor.division(&point, &state, 0.005).plain;
         most = most.max(steps);
         for _ in 0..steps as u32 {
             let next = rotor.step(|_| point, &state, 0.005 / steps, &mut workspace);
