@@ -167,14 +167,22 @@ impl Airfoil {
     ///
     /// As `read`.
     pub fn read_with_hash(path: &Path) -> Result<(Self, u64), AirfoilError> {
-        let file = path.display().to_string();
         match text_file::read(path, MAX_BYTES) {
-            Ok(TextFile { text, hash }) => {
-                let airfoil = (formats::detected(path, &text).parse)(&text, &file)?;
-                Ok((airfoil, hash))
-            }
-            Err(reason) => Err(AirfoilError::Unreadable { file, reason }),
+            Ok(TextFile { text, hash }) => Ok((Self::from_text(&text, path)?, hash)),
+            Err(reason) => Err(AirfoilError::Unreadable {
+                file: path.display().to_string(),
+                reason,
+            }),
         }
+    }
+
+    /// As `read`, from the text of a file at `path`, which is not read.
+    ///
+    /// # Errors
+    ///
+    /// As `read`.
+    pub fn from_text(text: &str, path: &Path) -> Result<Self, AirfoilError> {
+        (formats::detected(path, text).parse)(text, &path.display().to_string())
     }
 
     /// The section's name in the file.

@@ -130,11 +130,22 @@ impl Geometry {
     ///
     /// As `read`.
     pub fn read_with_hash(path: &Path) -> Result<(Self, u64), RotorFileError> {
-        let file = path.display().to_string();
         match text_file::read(path, MAX_BYTES) {
-            Ok(TextFile { text, hash }) => Ok((parse(&text, &file)?, hash)),
-            Err(reason) => Err(RotorFileError::Unreadable { file, reason }),
+            Ok(TextFile { text, hash }) => Ok((Self::from_text(&text, path)?, hash)),
+            Err(reason) => Err(RotorFileError::Unreadable {
+                file: path.display().to_string(),
+                reason,
+            }),
         }
+    }
+
+    /// As `read`, from the text of a file at `path`, which is not read.
+    ///
+    /// # Errors
+    ///
+    /// As `read`.
+    pub fn from_text(text: &str, path: &Path) -> Result<Self, RotorFileError> {
+        parse(text, &path.display().to_string())
     }
 }
 

@@ -1,0 +1,174 @@
+//! Serialized states: any bytes are refused, or are a state with which an instance goes on to
+//! finite numbers or an error.
+//!
+//! The bytes are the content; head and checksum, which random bytes never have, are added. With 255
+//! as the first byte the others are a whole serialized state; with 254 they say which bytes of
+//! a real state are changed, and how.
+
+#![no_main]
+
+use fuzz::{Instance, fail, finite, promise};
+use helicopter_rotor::{
+    block::variables::{STATES, boolean, integer, real},
+    fmi2::{
+        co_simulation::{fmi2DoStep, fmi2SetRealInputDerivatives},
+        fmu_state::*,
+        get_set::{fmi2GetInteger, fmi2GetReal, fmi2SetBoolean},
+        life_cycle::{fmi2EnterInitializationMode, fmi2ExitInitializationMode},
+        model_exchange::{fmi2GetContinuousStates, fmi2GetDerivatives},
+        types::*,
+    },
+};
+use libfuzzer_sys::fuzz_target;
+use std::{ptr, sync::OnceLock};
+
+/// Bytes of the head before the length: magic, version and GUID.
+const BEFORE_LENGTH: usize = 8 + 4 + 38;
+
+const OK: fmi2Status = fmi2Status::fmi2OK;
+
+/// The serialized state of an instance.
+fn serialized(instance: &Instance) -> Vec<u8> {
+    let (mut state, mut size) = (ptr::null_mut(), 0);
+    // SAFETY: the pointers live during the calls.
+    unsafe {
+        let taken = fmi2GetFMUstate(instance.0, &mut state);
+        let sized = fmi2SerializedFMUstateSize(instance.0, state, &mut size);
+        let mut bytes = vec![0_u8; size];
+        let written = fmi2SerializeFMUstate(instance.0, state, bytes.as_mut_ptr().cast(), size);
+        let freed = fmi2FreeFMUstate(instance.0, &mut state);
+        promise([taken, sized, written, freed] == [OK; 4], || {
+            "no state".into()
+        });
+        bytes
+    }
+}
+
+/// A whole state with this content.
+fn whole(content: &[u8]) -> Vec<u8> {
+    static HEAD: OnceLock<Vec<u8>> = OnceLock::new();
+    let head = HEAD
+        .get_or_init(|| serialized(&Instance::new(FMI2_CO_SIMULATION))[..BEFORE_LENGTH].to_vec());
+    let mut bytes = head.clone();
+    bytes.extend((content.len() as u64).to_le_bytes());
+    bytes.extend(content);
+    bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+    bytes
+}
+
+/// The contents of states of both interfaces and of a rotor with all kinds of states, in flight.
+fn real_contents() -> &'static [Vec<u8>] {
+    static CONTENTS: OnceLock<Vec<Vec<u8>>> = OnceLock::new();
+    CONTENTS.get_or_init(|| {
+        let content = |(kind, is_complex): (fmi2Enumeration, bool)| {
+            let instance = Instance::new(kind);
+            instance.simplify();
+            if is_complex {
+                instance.set_integer(integer::MODELS__INFLOW, 13);
+                instance.set_integer(integer::DRIVE__MODE, 2);
+                let flaps = boolean::FLAPPING__ENABLED.number();
+                // SAFETY: the pointers live during the call.
+                unsafe { fmi2SetBoolean(instance.0, &flaps, 1, &1) };
+            }
+            // SAFETY: the instance lives; in Model Exchange the step is refused.
+            unsafe {
+                fmi2EnterInitializationMode(instance.0);
+                fmi2ExitInitializationMode(instance.0);
+                fmi2DoStep(instance.0, 0.0, 1e-3, 1);
+                fmi2SetRealInputDerivatives(instance.0, &real::RPM.number(), 1, &1, &1.0);
+            }
+            let bytes = serialized(&instance);
+            bytes[BEFORE_LENGTH + 8..bytes.len() - 4].to_vec()
+        };
+        let interfaces = [FMI2_CO_SIMULATION, FMI2_MODEL_EXCHANGE];
+        let all = interfaces.map(|kind| [(kind, false), (kind, true)]);
+        all.into_iter().flatten().map(content).collect()
+    })
+}
+
+/// The content of a real state, with changes: place (two bytes) and what is flipped there.
+fn changed(which: u8, changes: &[u8]) -> Vec<u8> {
+    let contents = real_contents();
+    let mut content = contents[usize::from(which) % contents.len()].clone();
+    for change in changes.chunks_exact(3) {
+        let place = usize::from(u16::from_le_bytes([change[0], change[1]]));
+        let length = content.len();
+        content[place % length] ^= change[2];
+    }
+    content
+}
+
+/// Whether a step takes little time: few elements, moderate speeds, coarse steps.
+fn is_quick(instance: &Instance) -> bool {
+    let (mut elements, mut reals) = (0, [0.0; 2]);
+    let references = [real::RPM, real::NUMERICS__AZIMUTH_STEP].map(|r| r.number());
+    // SAFETY: the pointers live during the calls.
+    unsafe {
+        let reference = integer::NUMERICS__ELEMENTS.number();
+        fmi2GetInteger(instance.0, &reference, 1, &mut elements);
+        fmi2GetReal(instance.0, references.as_ptr(), 2, reals.as_mut_ptr());
+    }
+    elements <= 50 && reals[0] < 1e4 && reals[1] > 0.01
+}
+
+/// Goes on from a state that was set. Only numbers that are read with fmi2OK count.
+fn go_on(instance: &Instance) {
+    if !is_quick(instance) {
+        return;
+    }
+    let time = instance.time();
+    for step in 0..2 {
+        // SAFETY: the instance lives. In Model Exchange this is refused.
+        unsafe { fmi2DoStep(instance.0, time + 1e-4 * f64::from(step), 1e-4, 1) };
+        instance.reals();
+    }
+    let (mut x, mut rates) = ([0.0; STATES.len()], [0.0; STATES.len()]);
+    // SAFETY: the pointers are valid for the count.
+    unsafe {
+        if fmi2GetContinuousStates(instance.0, x.as_mut_ptr(), x.len()) == OK {
+            finite(&x);
+        }
+        if fmi2GetDerivatives(instance.0, rates.as_mut_ptr(), rates.len()) == OK {
+            finite(&rates);
+        }
+    }
+}
+
+/// Reads a state; none if it is refused.
+fn read(instance: &Instance, bytes: &[u8]) -> Option<fmi2FMUstate> {
+    let mut state = ptr::null_mut();
+    // SAFETY: the pointers live during the call.
+    let status = unsafe {
+        fmi2DeSerializeFMUstate(instance.0, bytes.as_ptr().cast(), bytes.len(), &mut state)
+    };
+    promise((status == OK) != state.is_null(), || {
+        "a state with an error".into()
+    });
+    (status == OK).then_some(state)
+}
+
+fuzz_target!(|data: &[u8]| {
+    let bytes = match data {
+        [255, whole @ ..] => whole.to_vec(),
+        [254, which, changes @ ..] => whole(&changed(*which, changes)),
+        content => whole(content),
+    };
+    for kind in [FMI2_CO_SIMULATION, FMI2_MODEL_EXCHANGE] {
+        let instance = Instance::new(kind);
+        let Some(mut state) = read(&instance, &bytes) else {
+            return;
+        };
+        // SAFETY: the instance and the states live.
+        unsafe {
+            if fmi2SetFMUstate(instance.0, state) == OK {
+                // It differs in the hashes of files that have changed.
+                match read(&instance, &serialized(&instance)) {
+                    Some(mut again) => fmi2FreeFMUstate(instance.0, &mut again),
+                    None => fail("its own state is refused"),
+                };
+                go_on(&instance);
+            }
+            fmi2FreeFMUstate(instance.0, &mut state);
+        }
+    }
+});
