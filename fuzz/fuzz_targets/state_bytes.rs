@@ -13,7 +13,7 @@ use helicopter_rotor::{
     fmi2::{
         co_simulation::{fmi2DoStep, fmi2SetRealInputDerivatives},
         fmu_state::*,
-        get_set::{fmi2GetInteger, fmi2GetReal, fmi2SetBoolean},
+        get_set::fmi2SetBoolean,
         life_cycle::{fmi2EnterInitializationMode, fmi2ExitInitializationMode},
         model_exchange::{fmi2GetContinuousStates, fmi2GetDerivatives},
         types::*,
@@ -27,28 +27,11 @@ const BEFORE_LENGTH: usize = 8 + 4 + 38;
 
 const OK: fmi2Status = fmi2Status::fmi2OK;
 
-/// The serialized state of an instance.
-fn serialized(instance: &Instance) -> Vec<u8> {
-    let (mut state, mut size) = (ptr::null_mut(), 0);
-    // SAFETY: the pointers live during the calls.
-    unsafe {
-        let taken = fmi2GetFMUstate(instance.0, &mut state);
-        let sized = fmi2SerializedFMUstateSize(instance.0, state, &mut size);
-        let mut bytes = vec![0_u8; size];
-        let written = fmi2SerializeFMUstate(instance.0, state, bytes.as_mut_ptr().cast(), size);
-        let freed = fmi2FreeFMUstate(instance.0, &mut state);
-        promise([taken, sized, written, freed] == [OK; 4], || {
-            "no state".into()
-        });
-        bytes
-    }
-}
-
 /// A whole state with this content.
 fn whole(content: &[u8]) -> Vec<u8> {
     static HEAD: OnceLock<Vec<u8>> = OnceLock::new();
     let head = HEAD
-        .get_or_init(|| serialized(&Instance::new(FMI2_CO_SIMULATION))[..BEFORE_LENGTH].to_vec());
+        .get_or_init(|| Instance::new(FMI2_CO_SIMULATION).serialized()[..BEFORE_LENGTH].to_vec());
     let mut bytes = head.clone();
     bytes.extend((content.len() as u64).to_le_bytes());
     bytes.extend(content);
@@ -77,7 +60,7 @@ fn real_contents() -> &'static [Vec<u8>] {
                 fmi2DoStep(instance.0, 0.0, 1e-3, 1);
                 fmi2SetRealInputDerivatives(instance.0, &real::RPM.number(), 1, &1, &1.0);
             }
-            let bytes = serialized(&instance);
+            let bytes = instance.serialized();
             bytes[BEFORE_LENGTH + 8..bytes.len() - 4].to_vec()
         };
         let interfaces = [FMI2_CO_SIMULATION, FMI2_MODEL_EXCHANGE];
@@ -98,22 +81,9 @@ fn changed(which: u8, changes: &[u8]) -> Vec<u8> {
     content
 }
 
-/// Whether a step takes little time: few elements, moderate speeds, coarse steps.
-fn is_quick(instance: &Instance) -> bool {
-    let (mut elements, mut reals) = (0, [0.0; 2]);
-    let references = [real::RPM, real::NUMERICS__AZIMUTH_STEP].map(|r| r.number());
-    // SAFETY: the pointers live during the calls.
-    unsafe {
-        let reference = integer::NUMERICS__ELEMENTS.number();
-        fmi2GetInteger(instance.0, &reference, 1, &mut elements);
-        fmi2GetReal(instance.0, references.as_ptr(), 2, reals.as_mut_ptr());
-    }
-    elements <= 50 && reals[0] < 1e4 && reals[1] > 0.01
-}
-
 /// Goes on from a state that was set. Only numbers that are read with fmi2OK count.
 fn go_on(instance: &Instance) {
-    if !is_quick(instance) {
+    if !instance.is_quick() {
         return;
     }
     let time = instance.time();
@@ -162,7 +132,7 @@ fuzz_target!(|data: &[u8]| {
         unsafe {
             if fmi2SetFMUstate(instance.0, state) == OK {
                 // It differs in the hashes of files that have changed.
-                match read(&instance, &serialized(&instance)) {
+                match read(&instance, &instance.serialized()) {
                     Some(mut again) => fmi2FreeFMUstate(instance.0, &mut again),
                     None => fail("its own state is refused"),
                 };

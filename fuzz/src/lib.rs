@@ -1,11 +1,12 @@
 //! What the targets share: an instance whose log is checked.
 
 use helicopter_rotor::{
-    block::variables::{GUID, IntegerRef, REALS, integer},
+    block::variables::{GUID, IntegerRef, REALS, integer, real},
     fmi2::{
         co_simulation::fmi2GetRealStatus,
         creation::{fmi2FreeInstance, fmi2Instantiate},
-        get_set::{fmi2GetReal, fmi2SetInteger},
+        fmu_state::*,
+        get_set::{fmi2GetInteger, fmi2GetReal, fmi2SetInteger},
         types::*,
     },
 };
@@ -109,6 +110,35 @@ impl Instance {
             finite(&values);
             values
         })
+    }
+
+    /// The complete state as bytes.
+    pub fn serialized(&self) -> Vec<u8> {
+        let (mut state, mut size) = (ptr::null_mut(), 0);
+        // SAFETY: the pointers live during the calls.
+        unsafe {
+            let taken = fmi2GetFMUstate(self.0, &mut state);
+            let sized = fmi2SerializedFMUstateSize(self.0, state, &mut size);
+            let mut bytes = vec![0_u8; size];
+            let written = fmi2SerializeFMUstate(self.0, state, bytes.as_mut_ptr().cast(), size);
+            let freed = fmi2FreeFMUstate(self.0, &mut state);
+            let is_ok = [taken, sized, written, freed] == [fmi2Status::fmi2OK; 4];
+            promise(is_ok, || "no state".into());
+            bytes
+        }
+    }
+
+    /// Whether a step takes little time: few elements, moderate speeds, coarse steps.
+    pub fn is_quick(&self) -> bool {
+        let (mut elements, mut reals) = (0, [0.0; 2]);
+        let references = [real::RPM, real::NUMERICS__AZIMUTH_STEP].map(|r| r.number());
+        // SAFETY: the pointers live during the calls.
+        unsafe {
+            let reference = integer::NUMERICS__ELEMENTS.number();
+            fmi2GetInteger(self.0, &reference, 1, &mut elements);
+            fmi2GetReal(self.0, references.as_ptr(), 2, reals.as_mut_ptr());
+        }
+        elements <= 50 && reals[0] < 1e4 && reals[1] > 0.01
     }
 
     /// The end of the last step, or the start.
