@@ -227,13 +227,23 @@ fn check_airfoils(airfoils: &[String]) -> Result<(), GeometryError> {
             airfoils.len()
         )));
     }
-    match airfoils.iter().find(|a| a.chars().count() > MAX_PATH) {
-        None => Ok(()),
-        Some(long) => Err(GeometryError(format!(
-            "the airfoil `{}` of a station has more than {MAX_PATH} characters; shorten it",
-            excerpt(long)
-        ))),
-    }
+    let wrong = airfoils.iter().find_map(|airfoil| {
+        if airfoil.chars().count() > MAX_PATH {
+            return Some((
+                airfoil,
+                format!("more than {MAX_PATH} characters; shorten it"),
+            ));
+        }
+        let has_control = airfoil.chars().any(char::is_control);
+        has_control.then(|| (airfoil, "control characters; remove them".to_owned()))
+    });
+    let Some((airfoil, problem)) = wrong else {
+        return Ok(());
+    };
+    Err(GeometryError(format!(
+        "the airfoil `{}` of a station has {problem}",
+        excerpt(airfoil)
+    )))
 }
 
 /// The inertia of the blades, from exactly one of the two numbers.
@@ -384,6 +394,12 @@ station = [
         let airfoils = |count: usize| with_airfoils((0..count).map(|i| i.to_string()));
         assert_eq!(read(airfoils(99)).unwrap().airfoils.len(), 100);
         assert!(error(airfoils(100)).contains("101 different airfoils; give them 100 or fewer"));
+        let path = |name: &str| with_airfoils([name.to_owned()].into_iter());
+        let control = error(path("a\\u001b[2J"));
+        assert!(
+            control.contains("`a\u{fffd}[2J` of a station has control characters"),
+            "{control}"
+        );
         let path = |length: usize| with_airfoils(["a".repeat(length)].into_iter());
         assert!(read(path(4096)).is_ok());
         let long = error(path(4097));
