@@ -255,8 +255,8 @@ fn a_step_or_a_start_never_takes_more_than_its_budget() -> Result<(), Failure> {
         block.set_integers(&[integer::NUMERICS__BUDGET], &[budget])?;
         let elements = block.values().integers[integer::NUMERICS__ELEMENTS];
         let blades = block.values().integers[integer::GEOMETRY__NUMBER_OF_BLADES];
-        // The bound is passed by one computation of the whole rotor at most, with its iterations, and
-        // at a start by the outputs.
+        // The bound is passed by one computation of the whole rotor at most, with its iterations,
+        // and at a start by the outputs.
         let most = budget as u64 + 300 * (elements * blades) as u64;
         match block.start() {
             Ok(()) => {}

@@ -36,8 +36,8 @@ fn no_steady_start(budget: Option<i32>) -> String {
     )
 }
 
-/// Iterations of static inflow and of the end of the lift in one computation of the outputs, with room
-/// to spare.
+/// Iterations of static inflow and of the end of the lift in one computation of the outputs, with
+/// room to spare.
 const ITERATIONS: u64 = 100;
 
 /// A rotor with the memory that it needs, and the files from which it was made.
@@ -118,8 +118,8 @@ impl RotorBlock {
         self.publish(&condition, memory)
     }
 
-    /// Warns once if the start has no steady or periodic state. `has_work`: whether the budget would
-    /// have allowed more.
+    /// Warns once if the start has no steady or periodic state. `has_work`: whether the budget
+    /// would have allowed more.
     fn note_start(&mut self, is_found: bool, has_work: bool) {
         if !is_found && self.has_start {
             let budget = self.values.integers[integer::NUMERICS__BUDGET];

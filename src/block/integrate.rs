@@ -7,10 +7,10 @@
 //! While the inputs stay constant, a communication step goes on from the last point that the steps
 //! reached, and a communication point between two of these is read off the motion between them, for
 //! which the step ahead is computed and kept. So after the first communication step no step is
-//! computed twice, however short the communication steps are, and the results hardly depend on them.
-//! The first communication step after a change of the inputs ends with a shorter step instead,
-//! because the inputs may change again at once. Inputs that move within a communication step begin a grid of their own at its
-//! beginning.
+//! computed twice, however short the communication steps are, and the results hardly depend on
+//! them. The first communication step after a change of the inputs ends with a shorter step
+//! instead, because the inputs may change again at once. Inputs that move within a communication
+//! step begin a grid of their own at its beginning.
 
 use super::known_rates::KnownRates;
 use rotor::{Division, Drive, OperatingPoint, Rotor, SolveError, State, StiffStep, Workspace};
@@ -51,6 +51,7 @@ pub struct Step {
 }
 
 /// A step that was taken.
+#[expect(clippy::large_enum_variant, reason = "a step must not allocate")]
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stepped {
     /// The states at its end.
@@ -91,7 +92,8 @@ pub const LONGEST_CELL: f64 = 0.02;
 /// Maximum number of halved steps in a cell.
 const MAX_STEPS_IN_CELL: u32 = 1 << 24;
 
-/// How many times as much work as is allowed is hopeless: rotors may need short steps only at first.
+/// How many times as much work as is allowed is hopeless: rotors may need short steps only at
+/// first.
 const HOPELESS: f64 = 4.0;
 
 /// Fraction of a step after which its end counts as reached.
@@ -239,8 +241,8 @@ impl Integration<'_> {
         })
     }
 
-    /// Fails at once where the work of a communication step, if it goes on as it begins, far exceeds
-    /// what is allowed. A rotor that can settle may stop early and is not refused.
+    /// Fails at once where the work of a communication step, if it goes on as it begins, far
+    /// exceeds what is allowed. A rotor that can settle may stop early and is not refused.
     fn refuse_hopeless(
         &self,
         point: &OperatingPoint,
@@ -299,8 +301,8 @@ impl Integration<'_> {
         Ok(stepped)
     }
 
-    /// The states `elapsed` s after the last point, in the step from there: on the cubic between its
-    /// ends, but for flapping that is too fast for a cubic.
+    /// The states `elapsed` s after the last point, in the step from there: on the cubic between
+    /// its ends, but for flapping that is too fast for a cubic.
     fn between(
         &mut self,
         since: &Since,

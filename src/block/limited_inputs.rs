@@ -1,6 +1,5 @@
-//! Inputs outside their range. They are limited to it, because a solver that finds its derivatives
-//! by differences, a landing or a rotor that stops may overshoot by a rounding error, and this must
-//! not end a simulation.
+//! Inputs outside their range. They are limited to it, because solvers, landings and stopping
+//! rotors pass an end by a rounding error, which must not end a simulation.
 
 use super::{
     plausibility::in_degrees,
@@ -23,7 +22,7 @@ impl Default for LimitedInputs {
     }
 }
 
-/// The value that counts for one that is given: for an input, the nearest one in its range.
+/// The value in effect: for an input, the nearest in its range.
 pub fn limited(variable: &Variable<f64>, value: f64) -> f64 {
     if variable.causality != Causality::Input {
         value

@@ -71,9 +71,9 @@ impl RotorBlock {
         Ok(())
     }
 
-    /// Sets String variables in their order. If one value is refused, none is set. `settings` also
-    /// sets the parameters to which it assigns values, which is up to the end of initialisation;
-    /// the same text may be set later, too, but changes nothing.
+    /// Sets String variables in their order; if one value is refused, none is set. Until
+    /// initialisation ends, setting `settings` also makes its assignments. Afterwards only its
+    /// present text may be set, which changes nothing.
     pub fn set_strings(
         &mut self,
         names: &[impl Names<StringRef>],

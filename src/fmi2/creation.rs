@@ -96,13 +96,13 @@ pub unsafe extern "C" fn fmi2Instantiate(
 /// Bytes of the longest name of an instance and of the longest resource location.
 const LONGEST_TEXT: usize = 1 << 16;
 
-/// The beginning of a name that is longer than any name.
+/// At most the first `LONGEST_TEXT` bytes of a name.
 fn cut(name: &str) -> &str {
     let ends = (0..=LONGEST_TEXT.min(name.len())).rev();
     ends.filter_map(|end| name.get(..end)).next().unwrap_or("")
 }
 
-/// The interface that the importer asks for; an error if it asks another FMU.
+/// The interface that the importer asks for; an error if it asks for another FMU.
 fn identity(kind: fmi2Enumeration, guid: Result<&str, Message>) -> Result<Interface, String> {
     let guid = guid.map_err(|message| match message {
         Message::Error(text) | Message::Warning(text) => text,

@@ -7,8 +7,8 @@
 //!
 //! The reserve holds what one call needs for a usual rotor. Sizes that come from files and from the
 //! importer's arguments are bounded, or asked for in a way that can fail (`Vec::try_reserve`); the
-//! reserve refuses pieces beyond `LARGEST`. It costs nothing until it is used: its pages exist from
-//! then on.
+//! reserve refuses pieces beyond `LARGEST`. Its pages take no memory until they are
+//! first used.
 
 use core::{
     alloc::{GlobalAlloc, Layout},
@@ -38,8 +38,8 @@ static ALLOCATOR: Allocator = Allocator;
 #[repr(C, align(64))]
 struct Reserve {
     bytes: UnsafeCell<[u8; SIZE]>,
-    /// Bytes given away in the lower half, and the number of living pieces in the upper half. Once
-    /// no piece lives, all bytes are free again.
+    /// Bytes given away in the lower 32 bits, and the number of living pieces in the upper 32 bits.
+    /// Once no piece lives, all bytes are free again.
     given: AtomicU64,
     /// Number of times that the system has refused memory.
     refusals: AtomicU64,

@@ -298,6 +298,14 @@ fn inputs_do_not_leave_their_ranges_within_a_step() {
             );
         }
     }
+    // It stands still at the end of the step, and turned while it ran: 0.1 s at a mean of 50
+    // rev/min.
+    let at = [reference(&REALS, "azimuth")];
+    let mut rate = [9.0];
+    assert_eq!(instance.output_derivatives(&at, &[1], &mut rate), c::OK);
+    assert_eq!(rate, [0.0]);
+    let turned = 50.0 * PI / 30.0 * 0.1;
+    assert!((instance.real("azimuth") - turned).abs() < 1e-12);
     // Very fast ones, too.
     assert_eq!(instance.set_slope("rpm", 1e308), c::OK);
     assert_eq!(instance.set_slope("heightAboveGround", -1e308), c::OK);

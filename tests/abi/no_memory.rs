@@ -196,6 +196,22 @@ fn an_allocation_that_fails_is_an_error_or_nothing_and_kills_nobody() {
         settings: text("numerics.elements = 3; initialization = rest; geometry.file = pca-2.toml"),
         airfoil: text("naca0012.polar"),
     };
+    // The largest rotor that there is, without any memory in the calls that need much.
+    let large = Importer {
+        callbacks: importer.callbacks,
+        guid: importer.guid.clone(),
+        resources: importer.resources.clone(),
+        settings: text(
+            "numerics.elements = 2000; geometry.numberOfBlades = 8; initialization = rest",
+        ),
+        airfoil: text("naca0012.polar"),
+        f: importer.f,
+    };
+    let (usual, ..) = large.run(&tool, usize::MAX, 0, false);
+    for step in [0, 8, 10, 12, 13, 18, 19] {
+        let (run, ..) = large.run(&tool, step, 1, true);
+        assert!(run.seen == usual.seen, "call {step} of the largest rotor");
+    }
     let (usual, ..) = importer.run(&tool, usize::MAX, 0, false);
     let (mut tried, mut refused) = (0, 0);
     for all in [false, true] {

@@ -10,6 +10,9 @@ use std::{
     time::{Duration, Instant},
 };
 
+/// How long the last line of a program that has ended may take to arrive.
+const LAST_LINES: Duration = Duration::from_millis(500);
+
 /// How often a waiting program looks for Ctrl-C and at the clock.
 pub const TICK: Duration = Duration::from_millis(50);
 
@@ -54,6 +57,14 @@ pub fn run(
             Ok(Line::Error(line)) => errors += &format!("{line}\n"),
             Err(reason) => {
                 if let Some(status) = running.status()? {
+                    // Lines may still be on their way, or a program that it has started holds the
+                    // pipe.
+                    while let Ok(line) = received.recv_timeout(LAST_LINES) {
+                        match line {
+                            Line::Output(line) => each_line(&line)?,
+                            Line::Error(line) => errors += &format!("{line}\n"),
+                        }
+                    }
                     return Ok((status, errors.trim_end().to_owned()));
                 }
                 if reason == RecvTimeoutError::Disconnected {

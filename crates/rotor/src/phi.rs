@@ -23,12 +23,12 @@ pub struct Phi {
 const SMALL: f64 = 0.5;
 /// Terms of the series, which leave out less than one part in 1e17.
 const TERMS: u32 = 14;
-/// phi_1 and phi_2 of `matrix`: the power series for a part of it, doubled until the matrix is whole
-/// again. With z doubled, phi_1 and phi_2 become (e^z + 1) phi_1/2 and (e^z phi_2 + phi_1 + phi_2)/4.
-/// NaN if the matrix is not finite.
+/// phi_1 and phi_2 of `matrix`: the power series for a part of it, doubled until the matrix is
+/// whole again. With z doubled, phi_1 and phi_2 become (e^z + 1) phi_1/2 and (e^z phi_2 + phi_1 +
+/// phi_2)/4. NaN if the matrix is not finite.
 ///
-/// The matrix is balanced first: with a unit of the second quantity in which the two numbers beside the
-/// diagonal have the same size, the norm is that of the motion, and few doublings are needed.
+/// The matrix is balanced first: with a unit of the second quantity in which the two numbers beside
+/// the diagonal have the same size, the norm is that of the motion, and few doublings are needed.
 pub fn phi(matrix: &Matrix2<f64>) -> Phi {
     let unit = libm::sqrt((matrix[(1, 0)] / matrix[(0, 1)]).abs());
     if !(unit.is_finite() && unit > 0.0) {
@@ -107,8 +107,8 @@ mod tests {
         }
     }
 
-    /// Of a blade: damped oscillations whose eigenvalues, x (-z +- i sqrt(1 - z^2)), give the functions
-    /// in complex numbers. phi_1 of the lower left number is sin(b)/b e^a c, and so on.
+    /// Of a blade: damped oscillations whose eigenvalues, x (-z +- i sqrt(1 - z^2)), give the
+    /// functions in complex numbers. phi_1 of the lower left number is sin(b)/b e^a c, and so on.
     #[test]
     fn of_a_damped_blade_they_satisfy_their_equations() {
         for (frequency, damping) in [

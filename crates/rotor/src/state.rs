@@ -41,9 +41,9 @@ impl<S: Scalar> Default for State<S> {
 
 impl State {
     /// The state a part of the way (0 to 1) to another one `duration` s later: the cubic with these
-    /// states and the rates `first` and `last` at its ends (Hermite). Its error is of the fourth power
-    /// of the duration, as is that of a single step of Heun's method; the states must be smooth within
-    /// it.
+    /// states and the rates `first` and `last` at its ends (Hermite). Its error is of the fourth
+    /// power of the duration, as is that of a single step of Heun's method; the states must be
+    /// smooth within it.
     pub fn between(
         &self,
         first: &Self,

@@ -9,8 +9,8 @@ use super::{
 /// undamped motion and 2.5 for damped.
 const MAX_PRODUCT: f64 = 1.0;
 
-/// Blades count as stiff if so many plain steps would replace one stiff step. A stiff step costs up to
-/// twice as much as a plain one.
+/// Blades count as stiff if so many plain steps would replace one stiff step. A stiff step costs up
+/// to twice as much as a plain one.
 const STIFF: f64 = 8.0;
 
 /// Into how many equal steps, at least 1, a time must be divided for a stable integration; not

@@ -13,10 +13,10 @@
 //! y_1 = y + h phi_1(h A) F(y) + 3h/2 phi_2(h A) D_3
 //! ```
 //!
-//! The last term is the difference from the exponential Euler method, y + h phi_1(h A) F(y), which is
-//! less accurate. It is a cautious estimate of the error of the step: it is large where lift jumps or
-//! blades hit stops, and steps must be shorter there. With t for h in front of and within phi, and t/h
-//! times the last term, y_1 is the state within the step, of the same order in h.
+//! The last term is the difference from the exponential Euler method, y + h phi_1(h A) F(y), which
+//! is less accurate. It is a cautious estimate of the error of the step: it is large where lift
+//! jumps or blades hit stops, and steps must be shorter there. With t for h in front of and within
+//! phi, and t/h times the last term, y_1 is the state within the step, of the same order in h.
 //!
 //! Where A = 0, as for the other states, this is the method of `step`. A holds the slopes of each
 //! blade's acceleration at the beginning of the step, from differences in which all blades move at
@@ -36,8 +36,8 @@ use nalgebra::{Matrix2, Vector2};
 /// Difference of the flap angles for the slopes, rad; of the flap rates, times the rotor speed.
 const DIFFERENCE: f64 = 1e-6;
 
-/// Largest estimated error of a step in the flap angles, rad; in the flap rates, times the rotor speed
-/// (at least 1 rad/s).
+/// Largest estimated error of a step in the flap angles, rad; in the flap rates, times the rotor
+/// speed (at least 1 rad/s).
 const TOLERANCE: f64 = 1e-6;
 
 /// A of each blade.
@@ -68,8 +68,8 @@ struct Motion {
 }
 
 impl Motion {
-    /// Replaces the flapping of `state` by that after a time, s, with `factor` phi_2 times `rest`, and
-    /// returns that last term.
+    /// Replaces the flapping of `state` by that after a time, s, with `factor` phi_2 times `rest`,
+    /// and returns that last term.
     fn replace(&self, state: &mut State, time: f64, factor: f64, rest: &Flapping) -> Flapping {
         let mut last = [Vector2::zeros(); MAX_FLAPPING_BLADES];
         for k in 0..self.blades {
@@ -103,8 +103,8 @@ impl StiffStep {
 }
 
 impl Rotor {
-    /// Like `step_from`, for blades that flap too fast for it. Inflow, stops and rotor speed still limit
-    /// the step. None if the flapping would not be accurate enough; take shorter steps.
+    /// Like `step_from`, for blades that flap too fast for it. Inflow, stops and rotor speed still
+    /// limit the step. None if the flapping would not be accurate enough; take shorter steps.
     pub fn stiff_step_from(
         &self,
         first: &State,

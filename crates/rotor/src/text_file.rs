@@ -149,9 +149,9 @@ mod tests {
     #[cfg(target_os = "linux")]
     #[test]
     fn files_of_the_system_without_a_length_are_empty() {
-        let clear_refs = ["/proc/kmsg", "/proc/self/pagemap", "/proc/self/maps"];
+        let paths = ["/proc/kmsg", "/proc/self/pagemap", "/proc/self/maps"];
         let mut read_any = false;
-        for path in clear_refs.map(Path::new) {
+        for path in paths.map(Path::new) {
             // Not every process may open all of them.
             if let Ok(file) = read(path, 1 << 26) {
                 assert_eq!(file.text, "", "{}", path.display());

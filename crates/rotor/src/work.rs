@@ -6,8 +6,8 @@ use core::cell::Cell;
 
 /// Counts computations of the loads of a section, and bounds them.
 ///
-/// A step costs the number of blades (or of azimuths of a disc) times that of elements and of stages,
-/// and with static inflow the iterations.
+/// A step costs the number of blades (or of azimuths of a disc) times that of elements and of
+/// stages, and with static inflow the iterations.
 #[derive(Debug, Clone)]
 pub struct Work {
     done: Cell<u64>,
