@@ -161,6 +161,16 @@ mod tests {
         assert!(read_any);
     }
 
+    #[test]
+    fn an_error_of_the_system_while_reading_is_told() {
+        let path = scratch("unreadable");
+        fs::write(&path, "text").unwrap();
+        let only_written = OpenOptions::new().write(true).open(&path).unwrap();
+        let reason = content(only_written, 100).unwrap_err();
+        assert!(reason.contains("os error"), "{reason}");
+        fs::remove_file(path).unwrap();
+    }
+
     /// As if it had taken the place of a plain file just before the path was opened.
     #[cfg(unix)]
     #[test]

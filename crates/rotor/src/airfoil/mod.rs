@@ -423,6 +423,31 @@ mod tests {
     }
 
     #[test]
+    fn the_lift_line_of_laws_is_line_a_and_without_lift_it_is_zero() {
+        let flow = Similarity {
+            reynolds: 1e5,
+            mach: 0.0,
+        };
+        let model = |lift: Lift| SectionModel {
+            lift,
+            compressibility: Compressibility::None,
+            drag_reynolds_exponent: 0.2,
+        };
+        let laws = "#1\ndouble a(1, 5)\n1e5 6 4 0.2 0.01\n";
+        let laws = combi::parse(laws, "test").unwrap();
+        for (lift, pitch, slope) in [
+            (Lift::Table, 0.2, 6.0),
+            (Lift::SlopesByReynolds, 0.01, 6.0),
+            (Lift::SlopesByReynolds, 0.2, 5.0),
+        ] {
+            assert_eq!(laws.lift_line(&model(lift), pitch, flow), (slope, 0.0));
+        }
+        let circle = polar::parse("polar 1\nreynolds 1\n-180 0 1\n180 0 1\n", "test").unwrap();
+        let none = circle.lift_line(&model(Lift::Table), 0.0, flow);
+        assert_eq!(none, (0.0, 0.0));
+    }
+
+    #[test]
     fn messages_quote_at_most_80_characters_of_a_file() {
         let long = "y".repeat(1_000_000);
         let polar = |text: String| polar::parse(&text, "f").map(|_| ());

@@ -293,6 +293,10 @@ station = [
         assert_eq!(geometry.airfoils, ["airfoils/circle.polar", ""]);
         assert!((geometry.stations[0].twist.to_degrees() - 4.0).abs() < 1e-12);
         assert_eq!(geometry.tip_chord, 0.1, "the rounded tip does not count");
+        assert_eq!(geometry.rotation, Rotation::CounterClockwise);
+        let text = format!("rotation = \"clockwise\"\n{GOOD}");
+        let geometry = parse(&text, "good.toml").unwrap();
+        assert_eq!(geometry.rotation, Rotation::Clockwise);
     }
 
     #[test]
