@@ -7,7 +7,7 @@ mod excerpt;
 mod memory;
 
 pub use excerpt::excerpt;
-pub use memory::{NoMemory, collect, push};
+pub use memory::{NoMemory, collect, ensure, push};
 
 use std::{
     fs::{self, File, Metadata, OpenOptions},

@@ -18,13 +18,16 @@
 //! standard airfoil.
 
 use super::{BladeInertia, Geometry, GeometryError, Rotation, Station};
-use crate::text_file::{self, TextFile, excerpt};
+use crate::text_file::{self, NoMemory, TextFile, ensure, excerpt};
 use serde::Deserialize;
 use std::path::Path;
 use thiserror::Error;
 
 /// Larger files are no rotors: `MAX_STATIONS` stations have 100 kB.
 const MAX_BYTES: u64 = 256 << 10;
+
+/// The parser takes up to 82 bytes of memory for each byte of a file, and cannot do without.
+const PARSER_BYTES: usize = 100;
 
 /// Maximum number of stations.
 const MAX_STATIONS: usize = 1000;
@@ -150,6 +153,11 @@ impl Geometry {
 }
 
 fn parse(text: &str, file: &str) -> Result<Geometry, RotorFileError> {
+    let no_memory = |error: NoMemory| RotorFileError::Unreadable {
+        file: file.to_owned(),
+        reason: error.to_string(),
+    };
+    ensure(PARSER_BYTES * text.len(), "its content").map_err(no_memory)?;
     let rotor: RotorFile = toml::from_str(text).map_err(|error| {
         let before = &text[..error.span().map_or(0, |span| span.start)];
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);

@@ -30,6 +30,15 @@ pub fn collect<T>(items: impl Iterator<Item = T>, what: &'static str) -> Result<
     Ok(vector)
 }
 
+/// Refuses `what` if so many bytes are not there now: for code that cannot do without them.
+pub fn ensure(bytes: usize, what: &'static str) -> Result<(), NoMemory> {
+    let mut room: Vec<u8> = Vec::new();
+    room.try_reserve_exact(bytes).map_err(|_| NoMemory(what))?;
+    // Else the compiler may leave the unused room out.
+    std::hint::black_box(&mut room);
+    Ok(())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -40,9 +49,10 @@ mod tests {
         push(&mut vector, 3, "the numbers").unwrap();
         assert_eq!(vector, [0, 1, 2, 3]);
         let error = collect(0..usize::MAX, "the numbers").unwrap_err();
-        assert_eq!(
-            error.to_string(),
-            "there is not enough memory for the numbers"
-        );
+        let sentence = "there is not enough memory for the numbers";
+        assert_eq!(error.to_string(), sentence);
+        assert_eq!(ensure(1000, "the numbers"), Ok(()));
+        let error = ensure(isize::MAX as usize, "the numbers").unwrap_err();
+        assert_eq!(error.to_string(), sentence);
     }
 }
