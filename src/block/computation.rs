@@ -36,10 +36,6 @@ fn no_steady_start(budget: Option<i32>) -> String {
     )
 }
 
-/// Iterations of static inflow and of the end of the lift in one computation of the outputs, with
-/// room to spare.
-const ITERATIONS: u64 = 100;
-
 /// A rotor with the memory that it needs, and the files from which it was made.
 pub(super) struct MadeRotor {
     rotor: Arc<Rotor>,
@@ -110,8 +106,9 @@ impl RotorBlock {
                 let step = rotor.work_of_step(&condition.point, &started.state, false) as u64;
                 let has_work = self.workspace.work.check(step).is_ok();
                 self.note_start(started.is_found, has_work);
-                // The outputs of a start that has used up its budget.
-                self.workspace.work.allow_at_least(step * ITERATIONS);
+                // The outputs of a start that has used up its budget, which are one computation of the
+                // whole rotor.
+                self.workspace.work = Work::default();
                 Memory::starting(started.state)
             }
         };

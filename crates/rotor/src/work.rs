@@ -45,11 +45,6 @@ impl Work {
         self.done.set(self.done.get().wrapping_add(computations));
     }
 
-    /// Allows at least `computations` from now on.
-    pub fn allow_at_least(&mut self, computations: u64) {
-        self.limit = self.limit.max(self.done().saturating_add(computations));
-    }
-
     /// An error if there is less left than `computations` take. Asked before each computation of
     /// the whole rotor, so that the bound is passed by one of these at most.
     pub fn check(&self, computations: u64) -> Result<(), SolveError> {
