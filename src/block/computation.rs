@@ -106,8 +106,8 @@ impl RotorBlock {
                 let step = rotor.work_of_step(&condition.point, &started.state, false) as u64;
                 let has_work = self.workspace.work.check(step).is_ok();
                 self.note_start(started.is_found, has_work);
-                // The outputs of a start that has used up its budget, which are one computation of the
-                // whole rotor.
+                // The outputs of a start that has used up its budget, which are one computation of
+                // the whole rotor.
                 self.workspace.work = Work::default();
                 Memory::starting(started.state)
             }
