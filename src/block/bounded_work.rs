@@ -147,7 +147,7 @@ fn what_is_read_between_steps_is_as_accurate_as_the_steps() -> Result<(), Failur
 /// The exponential method against the plain one with far shorter steps.
 #[test]
 fn stiff_blades_move_as_with_short_plain_steps() -> Result<(), Failure> {
-    for (spring, inertia) in [(2e7, 0.05), (5e8, 0.05), (0.0, 1e-4)] {
+    for (spring, inertia) in [(2e7, 0.05), (5e8, 0.05), (0.0, 1e-4), (1e6, 1e-4)] {
         let fly = |azimuth_step: f64, count: u32| -> Result<RotorBlock, Failure> {
             let mut block = block(&USUAL)?;
             let references = [
@@ -186,6 +186,22 @@ fn stiff_blades_move_as_with_short_plain_steps() -> Result<(), Failure> {
             assert!(off < 1e-3, "{spring}, {inertia}, {count}: {off:e}");
         }
     }
+    Ok(())
+}
+
+/// A rotor with blades of a tenth of a gram on stiff springs, the stiffest that there is.
+#[test]
+fn the_stiffest_blades_cost_little_more_than_others() -> Result<(), Failure> {
+    let stiffest = Case {
+        reals: &[
+            (real::FLAPPING__HINGE_SPRING, 1e6),
+            (real::FLAPPING__INERTIA, 1e-7),
+        ],
+        ..USUAL
+    };
+    let (usual, _) = work(&USUAL, 0.01, 1)?;
+    let (done, _) = work(&stiffest, 0.01, 1)?;
+    assert!(done <= 4 * usual, "{done}, usual {usual}");
     Ok(())
 }
 

@@ -13,10 +13,11 @@
 //! y_1 = y + h phi_1(h A) F(y) + 3h/2 phi_2(h A) D_3
 //! ```
 //!
-//! The last term is the difference from the exponential Euler method, y + h phi_1(h A) F(y), which
-//! is less accurate. It is a cautious estimate of the error of the step: it is large where lift
-//! jumps or blades hit stops, and steps must be shorter there. With t for h in front of and within
-//! phi, and t/h times the last term, y_1 is the state within the step, of the same order in h.
+//! The method of order 2 that has 3 h phi_2(h A) D_2 for the last term uses the same rates. Its
+//! difference, h phi_2(h A) (3/2 D_3 - 3 D_2), estimates the error of the step: it is 0 where the
+//! rest changes evenly, and large where lift jumps or blades hit stops. With t for h in front of
+//! and within phi, and t/h times the last term, y_1 is the state within the step, of the same order
+//! in h.
 //!
 //! Where A = 0, as for the other states, this is the method of `step`. A holds the slopes of each
 //! blade's acceleration at the beginning of the step, from differences in which all blades move at
@@ -68,19 +69,25 @@ struct Motion {
 }
 
 impl Motion {
-    /// Replaces the flapping of `state` by that after a time, s, with `factor` phi_2 times `rest`,
-    /// and returns that last term.
-    fn replace(&self, state: &mut State, time: f64, factor: f64, rest: &Flapping) -> Flapping {
-        let mut last = [Vector2::zeros(); MAX_FLAPPING_BLADES];
+    /// Replaces the flapping of `state` by that after a time, s, with `factor` phi_2 times `rest`.
+    fn replace(&self, state: &mut State, time: f64, factor: f64, rest: &Flapping) {
         for k in 0..self.blades {
             let phi = phi(&(self.slopes[k] * time));
-            last[k] = phi.second * rest[k] * factor;
             let linear = phi.first * vector(&self.first.flaps[k]) * time;
-            let flap = vector(&self.start.flaps[k]) + linear + last[k];
+            let last = phi.second * rest[k] * factor;
+            let flap = vector(&self.start.flaps[k]) + linear + last;
             state.flaps[k] = Flap {
                 angle: flap.x,
                 rate: flap.y,
             };
+        }
+    }
+
+    /// `factor` phi_2 after a time, s, times `rest`, of each blade.
+    fn last_term(&self, time: f64, factor: f64, rest: &Flapping) -> Flapping {
+        let mut last = [Vector2::zeros(); MAX_FLAPPING_BLADES];
+        for (k, last) in last.iter_mut().enumerate().take(self.blades) {
+            *last = phi(&(self.slopes[k] * time)).second * rest[k] * factor;
         }
         last
     }
@@ -134,7 +141,7 @@ impl Rotor {
         }
     }
 
-    /// The step, and the last term of each blade's flapping.
+    /// The step, and the estimated error of each blade's flapping.
     fn stiff_stages(
         &self,
         motion: Motion,
@@ -148,14 +155,21 @@ impl Rotor {
         let mut at_third = start.plus(third, first);
         motion.replace(&mut at_third, third, 0.0, &none);
         let second = self.rates(&point_at(third), &at_third, workspace)?;
-        let rest = motion.rest(&second, &at_third);
+        let rest_2 = motion.rest(&second, &at_third);
         let mut at_two_thirds = start.plus(two_thirds, &second);
-        motion.replace(&mut at_two_thirds, two_thirds, duration * 4.0 / 3.0, &rest);
+        motion.replace(
+            &mut at_two_thirds,
+            two_thirds,
+            duration * 4.0 / 3.0,
+            &rest_2,
+        );
         let last = self.rates(&point_at(two_thirds), &at_two_thirds, workspace)?;
         let rest = motion.rest(&last, &at_two_thirds);
         let mut end = start.plus(duration * 0.25, first);
         end = end.plus(duration * 0.75, &last);
-        let error = motion.replace(&mut end, duration, duration * 1.5, &rest);
+        motion.replace(&mut end, duration, duration * 1.5, &rest);
+        let uneven = core::array::from_fn(|k| rest[k] * 1.5 - rest_2[k] * 3.0);
+        let error = motion.last_term(duration, duration, &uneven);
         let step = StiffStep {
             end,
             motion,
