@@ -13,7 +13,7 @@ use super::{
     settings, setup,
     shown::shown,
     values::Values,
-    variables::{Causality, FlowState, REALS, integer, real},
+    variables::{Causality, FlowState, REALS, Variable, integer, real},
 };
 use crate::host::memory::Watch;
 use rotor::{Rotor, SolveError, Work, Workspace};
@@ -233,12 +233,16 @@ pub(super) fn check_finite(values: &Values, reals: &Reals) -> Result<(), BlockEr
     Ok(())
 }
 
-/// The inputs and their values as text for an error message.
+/// The inputs that differ from their start values, as text for an error message.
 pub(super) fn inputs(values: &Values) -> String {
-    let inputs = REALS
-        .iter()
-        .zip(values.reals)
-        .filter(|(v, _)| v.causality == Causality::Input);
+    let is_set =
+        |v: &Variable<f64>, value: f64| v.causality == Causality::Input && value != v.start;
+    let inputs = REALS.iter().zip(values.reals);
+    let inputs = inputs.filter(|(v, value)| is_set(v, *value));
     let texts = inputs.map(|(v, value)| format!("{} = {} {}", v.name, shown(value), v.unit));
-    texts.collect::<Vec<_>>().join(", ")
+    let texts: Vec<String> = texts.collect();
+    if texts.is_empty() {
+        return "all have their start values".to_owned();
+    }
+    texts.join(", ")
 }
