@@ -71,10 +71,10 @@ struct Motion {
 impl Motion {
     /// Replaces the flapping of `state` by that after a time, s, with `factor` phi_2 times `rest`.
     fn replace(&self, state: &mut State, time: f64, factor: f64, rest: &Flapping) {
-        for k in 0..self.blades {
+        for (k, rest) in rest.iter().enumerate().take(self.blades) {
             let phi = phi(&(self.slopes[k] * time));
             let linear = phi.first * vector(&self.first.flaps[k]) * time;
-            let last = phi.second * rest[k] * factor;
+            let last = phi.second * rest * factor;
             let flap = vector(&self.start.flaps[k]) + linear + last;
             state.flaps[k] = Flap {
                 angle: flap.x,
