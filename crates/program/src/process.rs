@@ -198,9 +198,10 @@ mod tests {
             "it did not end within 1 s and was stopped"
         );
         drop(command);
-        // The pipe ends when the last process that has it has ended.
+        // The pipe ends when the last process that has it has ended: long before its 60 s, however
+        // busy the machine is.
         reader.read_to_end(&mut Vec::new()).unwrap();
-        assert!(start.elapsed() < GRACE);
+        assert!(start.elapsed() < Duration::from_secs(50));
     }
 
     #[test]
