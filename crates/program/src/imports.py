@@ -2,13 +2,23 @@
 package a line.
 
     python imports.py FOLDER ...
+
+Folders below them that have a requirements.txt are left out: they have environments of their own.
 """
 
 import ast
 import sys
 from pathlib import Path
 
-scripts = [script for folder in sys.argv[1:] for script in Path(folder).rglob("*.py")]
+
+def scripts_below(folder):
+    others = [file.parent for file in folder.rglob("requirements.txt") if file.parent != folder]
+    for script in folder.rglob("*.py"):
+        if not any(other in script.parents for other in others):
+            yield script
+
+
+scripts = [script for folder in sys.argv[1:] for script in scripts_below(Path(folder))]
 # The scripts' modules for each other, and the standard library.
 others = {name for s in scripts for name in (s.stem, s.parent.name)} | sys.stdlib_module_names
 

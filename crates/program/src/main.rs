@@ -2,17 +2,19 @@
 //! validation page.
 
 mod draft;
+mod examples;
 mod files;
 mod output;
 mod package;
 mod process;
+mod progress;
 mod python;
 mod scripts;
 mod stop;
 mod summary;
 mod validation;
 
-use clap::{Parser, Subcommand};
+use clap::{Parser, Subcommand, builder::PossibleValuesParser};
 use std::{
     fmt,
     path::{Path, PathBuf},
@@ -49,6 +51,15 @@ enum Command {
         /// A regular file, old or new: folders, devices and FIFOs are refused. Of a symbolic link
         /// the target is written, also if it does not exist yet, and the link stays.
         #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
+    /// Run the examples in fmu-examples/: tables and pictures of systems that contain the rotor
+    Examples {
+        /// Run only these
+        #[arg(value_name = "NAME", value_parser = PossibleValuesParser::new(examples::names()))]
+        names: Vec<String>,
+        /// Folder for the .fmu and the results, a folder for each example [default: target/examples]
+        #[arg(long, value_name = "FOLDER")]
         out: Option<PathBuf>,
     },
     /// Make the reference files against which importers are checked, and the .fmu that contains
@@ -141,6 +152,12 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
             // Refused before the library is built.
             draft::place_of_file(&out)?;
             make_fmu(&out, &library()?)
+        }
+        Some(Command::Examples { names, out }) => {
+            let out = out.unwrap_or_else(|| target.join("examples"));
+            let fmu = out.join("HelicopterRotor.fmu");
+            make_fmu(&fmu, &library()?)?;
+            examples::run(&names, &fmu, &out, &target)
         }
         Some(Command::Reference) => {
             let library = library()?;

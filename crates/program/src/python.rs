@@ -1,12 +1,12 @@
 //! The Python environment of the examples and of validation/: a virtual environment in the target
 //! folder. It is made again when fmu-examples/requirements.txt changes, and repaired when a package
-//! is missing or broken.
+//! is missing or broken. Examples that need more packages have environments of their own.
 
 use crate::{
     Failure,
     draft::replace_file,
     failed,
-    files::{make_folder, read_text},
+    files::{self, make_folder, read_text},
     output, process, scripts, sources, stop,
 };
 use indicatif::ProgressBar;
@@ -38,42 +38,17 @@ const LIMIT_OF_PIP: Duration = Duration::from_secs(3600);
 /// The path of the environment's interpreter. Makes the environment if it is missing, incomplete or
 /// was made from other requirements, and repairs it if a package cannot be imported.
 pub fn environment(target: &Path) -> Result<PathBuf, Failure> {
-    let environment = Environment {
-        folder: target.join("python"),
-        interpreter: target.join("python").join("bin").join("python"),
-        installed: target.join("python").join("requirements.txt"),
-        requirements: scripts::examples().join("requirements.txt"),
-    };
-    let wanted = read_text(&environment.requirements)?;
+    let scripts = SCRIPTS.map(|folder| sources().join(folder)).to_vec();
+    let requirements = scripts::examples().join("requirements.txt");
+    Environment::new(target.join("python"), requirements, scripts).ready(target)
+}
 
-    let _lock = lock(target)?;
-    if fs::read_to_string(&environment.installed).is_ok_and(|found| found == wanted) {
-        let Some(fault) = environment.fault()? else {
-            return Ok(environment.interpreter);
-        };
-        output::note(format_args!(
-            "{}: {fault}. Installing the packages again ...",
-            environment.folder.display()
-        ));
-        // While this file is missing, the environment is not complete and is made again.
-        fs::remove_file(&environment.installed).map_err(failed(format!(
-            "cannot remove {}",
-            environment.installed.display()
-        )))?;
-        if !environment.repair()? {
-            environment.make()?;
-        }
-    } else {
-        environment.make()?;
-    }
-    if let Some(fault) = environment.fault()? {
-        return Err(Failure(format!(
-            "{}: {fault}, although the packages have just been installed; see fmu-examples/requirements.txt for what they are",
-            environment.folder.display()
-        )));
-    }
-    replace_file(&environment.installed, wanted.as_bytes())?;
-    Ok(environment.interpreter)
+/// The same for the scripts in a folder of the examples that has a requirements.txt of its own.
+pub fn environment_of(folder: &Path, target: &Path) -> Result<PathBuf, Failure> {
+    let name = format!("python-{}", files::name(folder));
+    let scripts = vec![scripts::examples(), folder.to_path_buf()];
+    let requirements = folder.join("requirements.txt");
+    Environment::new(target.join(name), requirements, scripts).ready(target)
 }
 
 /// Waits until no other process makes the environment. The lock ends when it is dropped.
@@ -100,15 +75,61 @@ struct Environment {
     installed: PathBuf,
     /// Those that should be.
     requirements: PathBuf,
+    /// The folders of the scripts that run in it.
+    scripts: Vec<PathBuf>,
 }
 
 impl Environment {
+    fn new(folder: PathBuf, requirements: PathBuf, scripts: Vec<PathBuf>) -> Environment {
+        Environment {
+            interpreter: folder.join("bin").join("python"),
+            installed: folder.join("requirements.txt"),
+            folder,
+            requirements,
+            scripts,
+        }
+    }
+
+    /// The path of the interpreter, when the environment is complete.
+    fn ready(self, target: &Path) -> Result<PathBuf, Failure> {
+        let wanted = read_text(&self.requirements)?;
+        let _lock = lock(target)?;
+        if fs::read_to_string(&self.installed).is_ok_and(|found| found == wanted) {
+            let Some(fault) = self.fault()? else {
+                return Ok(self.interpreter);
+            };
+            output::note(format_args!(
+                "{}: {fault}. Installing the packages again ...",
+                self.folder.display()
+            ));
+            // While this file is missing, the environment is not complete and is made again.
+            fs::remove_file(&self.installed).map_err(failed(format!(
+                "cannot remove {}",
+                self.installed.display()
+            )))?;
+            if !self.repair()? {
+                self.make()?;
+            }
+        } else {
+            self.make()?;
+        }
+        if let Some(fault) = self.fault()? {
+            return Err(Failure(format!(
+                "{}: {fault}, although the packages have just been installed; see {} for what they are",
+                self.folder.display(),
+                self.requirements.display()
+            )));
+        }
+        replace_file(&self.installed, wanted.as_bytes())?;
+        Ok(self.interpreter)
+    }
+
     /// What is wrong with it: packages that the scripts cannot import, or its interpreter.
     fn fault(&self) -> Result<Option<String>, Failure> {
         let mut command = Command::new(&self.interpreter);
         command
             .args(["-c", include_str!("imports.py")])
-            .args(SCRIPTS.map(|folder| sources().join(folder)))
+            .args(&self.scripts)
             // Matplotlib needs no screen.
             .env("MPLBACKEND", "Agg")
             .stderr(Stdio::piped());
@@ -157,17 +178,17 @@ impl Environment {
     }
 
     fn install(&self, options: &[&str]) -> Result<(), Failure> {
-        let spinner =
-            spinner("installing FMPy, Matplotlib and SciPy (only once, about a minute) ...");
+        let spinner = spinner("installing Python packages (only once, about a minute) ...");
         let mut pip = Command::new(&self.interpreter);
         pip.args(["-m", "pip", "install", "--quiet"])
             .args(["--disable-pip-version-check", "--no-input"])
             .args(options)
             .arg("-r")
             .arg(&self.requirements);
-        process::run_quietly(&mut pip, LIMIT_OF_PIP).map_err(failed(
-            "cannot install the Python packages in fmu-examples/requirements.txt; check the connection to PyPI",
-        ))?;
+        process::run_quietly(&mut pip, LIMIT_OF_PIP).map_err(failed(format!(
+            "cannot install the Python packages in {}; check the connection to PyPI",
+            self.requirements.display()
+        )))?;
         spinner.finish_and_clear();
         Ok(())
     }

@@ -1,12 +1,11 @@
 //! The FMU in an importer, FMPy: validation, description and simulation, and the examples for
 //! users. Thrust and torque are compared with Knight & Hefner's measurements.
 
-use crate::support::{self, interpreter, packaged_fmu, succeed};
-use std::{
-    collections::BTreeMap,
-    path::{Path, PathBuf},
-    process::Command,
+use crate::{
+    support::{self, interpreter, packaged_fmu, succeed},
+    tables::{Row, assert_plot, csv, numbers, value},
 };
+use std::{path::PathBuf, process::Command};
 
 /// Runs a command of FMPy with the FMU and returns its output.
 fn fmpy(arguments: &[&str]) -> String {
@@ -42,31 +41,6 @@ fn run_example(script: &str) -> (String, PathBuf) {
 
 fn scratch(name: &str) -> PathBuf {
     support::scratch().join(name)
-}
-
-/// A plot has been drawn.
-fn assert_plot(file: &Path) {
-    assert!(file.metadata().unwrap().len() > 10_000, "{file:?}");
-}
-
-/// The words of a line that are numbers.
-fn numbers(line: &str) -> Vec<f64> {
-    let words = line.split_whitespace();
-    words.filter_map(|word| word.parse().ok()).collect()
-}
-
-/// The fields of a row, by the names of the columns.
-type Row = BTreeMap<String, String>;
-
-/// The rows of a CSV file with a header.
-fn csv(file: &Path) -> Vec<Row> {
-    let mut table = csv::Reader::from_path(file).unwrap();
-    table.deserialize().map(Result::unwrap).collect()
-}
-
-fn value(row: &Row, name: &str) -> f64 {
-    let field = row.get(name).unwrap_or_else(|| panic!("no column {name}"));
-    field.parse().unwrap()
 }
 
 #[test]

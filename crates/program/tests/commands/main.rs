@@ -13,5 +13,6 @@ mod package;
 mod package_out;
 mod reference;
 mod support;
+mod tables;
 mod terminal;
 mod validation;
