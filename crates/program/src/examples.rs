@@ -14,6 +14,8 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("hover-trim", "hover_trim.py"),
     ("engine-off", "engine_off.py"),
     ("solver-accuracy", "solver_accuracy.py"),
+    ("climbing-disc", "climbing_disc/climb.py"),
+    ("climbing-disc-ssp", "climbing_disc/ssp.py"),
     ("forward-flight", "forward_flight.py"),
 ];
 

@@ -6,6 +6,7 @@
 #![allow(clippy::disallowed_methods)]
 
 mod environment;
+mod examples;
 mod first_use;
 mod importers;
 mod importers_table;
