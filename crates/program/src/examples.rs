@@ -16,6 +16,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("solver-accuracy", "solver_accuracy.py"),
     ("climbing-disc", "climbing_disc/climb.py"),
     ("climbing-disc-ssp", "climbing_disc/ssp.py"),
+    ("helicopter", "helicopter/fly.py"),
     ("forward-flight", "forward_flight.py"),
 ];
 
