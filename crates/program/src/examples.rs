@@ -17,6 +17,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("climbing-disc", "climbing_disc/climb.py"),
     ("climbing-disc-ssp", "climbing_disc/ssp.py"),
     ("helicopter", "helicopter/fly.py"),
+    ("quadrotor", "quadrotor/quadrotor.py"),
     ("forward-flight", "forward_flight.py"),
 ];
 

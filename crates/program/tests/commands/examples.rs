@@ -188,3 +188,54 @@ fn stability_derivatives_follow_the_rotors(rows: &[Row]) {
         }
     }
 }
+
+#[test]
+fn a_quadrotor_of_four_rotors_reaches_its_place_and_heading() {
+    let (text, folder) = run("quadrotor");
+    assert!(
+        text.contains("s of computing for each second of flight"),
+        "{text}"
+    );
+    let table = csv(&folder.join("quadrotor.csv"));
+    let flight = |gyroscopic: &str| -> Vec<&Row> {
+        table
+            .iter()
+            .filter(|row| row["gyroscopic"] == gyroscopic)
+            .collect()
+    };
+    let (rows, without) = (flight("1"), flight("0"));
+    // It hovers until the step at 0.5 s, then goes 3 m forward without overshoot, keeps its height,
+    // and turns.
+    for row in &rows[..250] {
+        for name in ["x", "y", "z"] {
+            assert!(value(row, name).abs() < 1e-3, "{row:?}");
+        }
+    }
+    for row in &rows {
+        assert!(
+            value(row, "z").abs() < 0.1 && value(row, "x") < 3.05,
+            "{row:?}"
+        );
+    }
+    let last = rows.last().unwrap();
+    assert!((value(last, "x") - 3.0).abs() < 0.02, "{last:?}");
+    assert!((value(last, "heading") - 90.0).abs() < 0.5, "{last:?}");
+
+    // It first turns only. What body and rotors gain in angular momentum comes from the air.
+    let (from, to) = (rows[250], rows[300]);
+    let gained = value(to, "yawMomentum") - value(from, "yawMomentum");
+    let of_air: f64 = rows[250..=300]
+        .windows(2)
+        .map(|pair| 0.5 * 0.002 * (value(pair[0], "airTorque") + value(pair[1], "airTorque")))
+        .sum();
+    assert!((gained / of_air - 1.0).abs() < 0.02, "{gained} {of_air}");
+    assert!(value(to, "yawRate") > 0.5);
+
+    // Blades of 2 x 4.8e-5 kg.m2 on four rotors, whose speeds differ, pull at a body that pitches.
+    let changes = rows.iter().zip(&without);
+    let most = changes
+        .map(|(row, other)| (value(row, "pitch") - value(other, "pitch")).abs())
+        .fold(0.0, f64::max);
+    assert!((2.0..6.0).contains(&most), "{most}");
+    assert_plot(&folder.join("quadrotor.png"));
+}
