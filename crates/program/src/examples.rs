@@ -18,6 +18,9 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("climbing-disc-ssp", "climbing_disc/ssp.py"),
     ("helicopter", "helicopter/fly.py"),
     ("quadrotor", "quadrotor/quadrotor.py"),
+    ("rotor-map", "rotor_map/rotor_map.py"),
+    // It takes the map of rotor-map.
+    ("surrogate", "rotor_map/surrogate.py"),
     ("forward-flight", "forward_flight.py"),
 ];
 

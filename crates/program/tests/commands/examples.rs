@@ -8,12 +8,18 @@ use std::{f64::consts::PI, path::PathBuf};
 
 /// Runs an example by its name, and returns its output and the folder of its files.
 fn run(name: &str) -> (String, PathBuf) {
-    let out = scratch().join(format!("examples-{name}"));
+    let (text, out) = run_all(&[name]);
+    (text, out.join(name))
+}
+
+/// Runs several, which may use each other's files.
+fn run_all(names: &[&str]) -> (String, PathBuf) {
+    let out = scratch().join(format!("examples-{}", names[0]));
     let mut command = support::program();
-    command.args(["examples", name, "--out"]).arg(&out);
+    command.arg("examples").args(names).arg("--out").arg(&out);
     let text = succeed(command.arg("--library").arg(support::library()));
     println!("{text}");
-    (text, out.join(name))
+    (text, out)
 }
 
 #[test]
@@ -238,4 +244,47 @@ fn a_quadrotor_of_four_rotors_reaches_its_place_and_heading() {
         .fold(0.0, f64::max);
     assert!((2.0..6.0).contains(&most), "{most}");
     assert_plot(&folder.join("quadrotor.png"));
+}
+
+#[test]
+fn a_map_of_100000_conditions_has_the_same_bits_however_it_is_made() {
+    let (text, out) = run_all(&["rotor-map", "surrogate"]);
+    assert!(
+        text.contains("All 100000 conditions are the same in all runs: True"),
+        "{text}"
+    );
+    assert!(text.contains("killing worker process"), "{text}");
+    let runs = csv(&out.join("rotor-map/map.csv"));
+    assert_eq!(runs.len(), 4);
+    for run in &runs {
+        assert_eq!(run["same_bits"], "True");
+        let [half, end] = ["memory_half", "memory_end"].map(|name| value(run, name));
+        assert!(end < 1.1 * half && end < 400.0, "{run:?}");
+        assert!(value(run, "rate") > 100.0, "{run:?}");
+    }
+    assert_plot(&out.join("rotor-map/map.png"));
+    the_surrogate_has_its_error(&csv(&out.join("surrogate/surrogate.csv")));
+    assert_plot(&out.join("surrogate/surrogate.png"));
+}
+
+/// In conditions that the map does not have; the FMU says what is right.
+fn the_surrogate_has_its_error(rows: &[Row]) {
+    assert_eq!(rows.len(), 1000);
+    for (name, root_mean_square, worst) in [("thrust", 2e-4, 2e-3), ("torque", 5e-4, 5e-3)] {
+        let largest = rows
+            .iter()
+            .fold(0.0_f64, |most, row| most.max(value(row, name).abs()));
+        let errors = rows
+            .iter()
+            .map(|row| (value(row, &format!("surrogate:{name}")) - value(row, name)) / largest);
+        let (squares, most) = errors.fold((0.0, 0.0_f64), |(sum, most), e| {
+            (sum + e * e, most.max(e.abs()))
+        });
+        let mean = (squares / rows.len() as f64).sqrt();
+        assert!(
+            mean < root_mean_square && most < worst,
+            "{name}: {mean} {most}"
+        );
+        assert!(mean > 0.0);
+    }
 }
