@@ -21,6 +21,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("rotor-map", "rotor_map/rotor_map.py"),
     // It takes the map of rotor-map.
     ("surrogate", "rotor_map/surrogate.py"),
+    ("notebook", "notebook/execute.py"),
     ("forward-flight", "forward_flight.py"),
 ];
 

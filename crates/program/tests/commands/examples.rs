@@ -288,3 +288,27 @@ fn the_surrogate_has_its_error(rows: &[Row]) {
         assert!(mean > 0.0);
     }
 }
+
+/// The mean inflow of a rotor with lift slope a settles in 8 R/(3 pi)/(4 v + a sigma Omega R/4)
+/// (Pitt & Peters 1981), here with v = 3.8 m/s and a of 6 to 6.5: 24 to 26 ms.
+#[test]
+fn the_notebook_runs_from_import_to_a_linear_model() {
+    let (text, folder) = run("notebook");
+    let number_after = |words: &str| -> f64 {
+        let found = text.split(words).nth(1);
+        let mut rest = found
+            .unwrap_or_else(|| panic!("no {words} in {text}"))
+            .split_whitespace();
+        rest.next().unwrap().parse().unwrap()
+    };
+    let merit = number_after("best figure of merit");
+    assert!((0.6..0.75).contains(&merit), "{merit}");
+    let settling = number_after("time constant of the mean inflow");
+    assert!((22.0..28.0).contains(&settling), "{settling}");
+    let difference = number_after("largest difference");
+    assert!((0.0..3.0).contains(&difference), "{difference}");
+    assert!(folder.join("rotor.ipynb").is_file());
+    for name in ["notebook-1.png", "notebook-2.png"] {
+        assert_plot(&folder.join(name));
+    }
+}
