@@ -22,6 +22,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     // It takes the map of rotor-map.
     ("surrogate", "rotor_map/surrogate.py"),
     ("notebook", "notebook/execute.py"),
+    ("complete-model", "complete_model.py"),
     ("forward-flight", "forward_flight.py"),
 ];
 

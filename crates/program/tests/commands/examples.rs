@@ -312,3 +312,66 @@ fn the_notebook_runs_from_import_to_a_linear_model() {
         assert_plot(&folder.join(name));
     }
 }
+
+#[test]
+fn tilt_and_speed_act_on_the_forces_as_they_must() {
+    let (_, folder) = run("complete-model");
+    let rows = csv(&folder.join("complete-model.csv"));
+    assert_eq!(rows.len(), 4 * 8);
+    let sweeps: Vec<&[Row]> = rows.chunks(8).collect();
+    let force = |row: &Row| value(row, "forward").hypot(value(row, "up"));
+    for sweep in &sweeps {
+        // In hover the force turns with the shaft; only the weight of the blades does not.
+        let tilt = value(&sweep[0], "tilt").to_radians();
+        assert!((force(&sweep[0]) / force(&sweeps[1][0]) - 1.0).abs() < 1e-3);
+        let slope = value(&sweep[0], "forward") / value(&sweep[0], "up");
+        assert!((slope - tilt.tan()).abs() < 1e-3, "{slope} {tilt}");
+        // The faster, the more the tip path leans back.
+        for pair in sweep.windows(2) {
+            assert!(value(&pair[1], "a1") > value(&pair[0], "a1"), "{pair:?}");
+        }
+    }
+    // Tilted forward the disc takes more air from above: less lift, more power, less flapping.
+    for i in 2..8 {
+        for pair in sweeps.windows(2) {
+            let [back, forward] = [&pair[0][i], &pair[1][i]];
+            assert!(
+                value(forward, "up") < value(back, "up"),
+                "{back:?} {forward:?}"
+            );
+            assert!(value(forward, "power") > value(back, "power"));
+            assert!(value(forward, "a1") < value(back, "a1"));
+        }
+    }
+    // Tilted back it is an autogiro: the air drives it.
+    assert!(value(&sweeps[0][7], "power") < 0.0);
+    flow_around_the_disc_is_that_of_textbooks(&csv(&folder.join("disc.csv")));
+    for name in ["complete-model.png", "disc.png"] {
+        assert_plot(&folder.join(name));
+    }
+}
+
+/// The Mach number is that of rotation and flight; flow is reversed in a circle of diameter mu R,
+/// and stalled on the retreating side only.
+fn flow_around_the_disc_is_that_of_textbooks(points: &[Row]) {
+    assert_eq!(points.len(), 120 * 20);
+    let mu = 0.35 * 4.0_f64.to_radians().cos();
+    let tip = 385.0 * PI / 30.0 * 5.4864 / 340.294;
+    let mut stalled = 0;
+    for point in points {
+        let (azimuth, radius) = (value(point, "azimuth").to_radians(), value(point, "radius"));
+        let along = radius + mu * azimuth.sin();
+        let mach = value(point, "mach");
+        if along > 0.4 {
+            assert!((mach / (tip * along) - 1.0).abs() < 0.03, "{point:?}");
+        }
+        if along.abs() > 0.08 {
+            assert_eq!(point["flow"] == "2", along < 0.0, "{point:?}");
+        }
+        if point["flow"] == "1" {
+            stalled += 1;
+            assert!(radius * azimuth.sin() < 0.1, "{point:?}");
+        }
+    }
+    assert!((20..400).contains(&stalled), "{stalled}");
+}
