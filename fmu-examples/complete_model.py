@@ -22,7 +22,8 @@ from script import command_line, plt, save_plot, write_table
 
 # The main rotor of the Agusta A109 in Heffley & Mnich (1988), "Minimum-Complexity Helicopter
 # Simulation Math Model", NASA CR-177476: radius 18 ft, chord 1.10 ft, 385 rev/min, twist -0.105
-# rad, hinges at 0.5 ft, 212 slug ft2 a blade. Assumed: NACA 0012, a cutout of 0.2, and the pitch.
+# rad, hinges at 0.5 ft, 212 slug ft2 a blade (read where helicopter/a109.py says). Assumed: NACA
+# 0012, a cutout of 0.2, and the pitch.
 RPM = 385.0
 RADIUS = 5.4864  # m
 SECTION = "airfoils/naca0012.polar"

@@ -2,7 +2,10 @@
 
 The numbers are those of the example in Heffley & Mnich (1988), "Minimum-Complexity Helicopter
 Simulation Math Model", NASA CR-177476, in the units of the report: feet, pounds, slugs, inches for
-stations (aft) and water lines (up). What the report does not say is assumed, and called so.
+stations (aft) and water lines (up). They were read from two public programs that copy the report's
+table and agree with each other (heli-gym, and Minimum-Complexity-Helicopter-Model by straycat11),
+not from the report itself. Weight, rotors and speeds are those of the A109A; the programs give no
+name. What the table does not say is assumed, and called so.
 
 Body axes: x forward, y left, z up from the centre of gravity, as in the FMU.
 """
@@ -36,7 +39,7 @@ RPM, TAIL_RPM = 385.0, 2080.0
 SHAFT = 0.11  # rad, forward
 _COMMON = {
     "geometry.rootCutout": 0.2,  # assumed
-    # NACA 0012 is assumed. The report has lift slopes of 6 and 3 per rad for the two rotors and a
+    # NACA 0012 is assumed. The table has lift slopes of 6 and 3 per rad for the two rotors and a
     # drag coefficient of 0.010.
     "airfoil.file": "airfoils/naca0012.polar",
     "air.atmosphere": "userDefined",
@@ -74,7 +77,7 @@ _V_ZERO, _V_SLOPE, _V_MOST = 3.3, 47.0, 17.0
 def airframe(velocity, rates, induced):
     """Force (N) and moment (N.m) on fuselage and tails, in body axes, from the velocity (m/s)
     and the rates (rad/s) of the body. The fuselage is in the wake of the main rotor, with the
-    induced velocity (m/s); the report lets the tails leave it, and it is left out there."""
+    induced velocity (m/s); at the tails it is left out."""
     half = 0.5 * DENSITY * FOOT**2
     u, v, w = velocity + np.cross(rates, FUSELAGE)
     w += induced

@@ -35,6 +35,7 @@ def trim(rows, file):
     best = speed[np.argmin(main + tail)]
     power.axvline(best, color="0.6", linewidth=0.8)
     power.text(best + 1.0, 110.0, f"least at {best:.0f} m/s,\n{best / KNOT:.0f} kt", color="0.3")
+    # Of the A109A: "Agusta A109", Business Jet Traveler (bjtonline.com).
     installed = 2.0 * 420.0 * HORSEPOWER
     power.axhline(installed, color="0.6", linewidth=0.8)
     power.text(0.5, installed - 8.0, "two engines of 420 hp", color="0.3", va="top")
