@@ -54,6 +54,10 @@ MAIN_ROTOR = _COMMON | {
     "flapping.hingeOffset": 0.50 / 18.0,
     "flapping.inertia": 212.0 * SLUG * FOOT**2,
     "models.inflow": "pittPetersDynamic",
+    # Half as many elements and half as many steps as by default cost 0.2 % of the thrust, and save
+    # three quarters of the time.
+    "numerics.elements": 20,
+    "numerics.azimuthStep": math.radians(6.0),
 }
 # Two blades (assumed), whose chord follows from the solidity of 0.134. They teeter: the FMU's rigid
 # blades without cyclic pitch give the averages of thrust and torque, and the hub passes on no other
