@@ -4,7 +4,7 @@ use crate::{
     support::{self, scratch, succeed},
     tables::{Row, assert_plot, csv, value},
 };
-use std::{f64::consts::PI, path::PathBuf};
+use std::{f64::consts::PI, path::PathBuf, process::Command};
 
 /// Runs an example by its name, and returns its output and the folder of its files.
 fn run(name: &str) -> (String, PathBuf) {
@@ -28,6 +28,38 @@ fn an_example_that_does_not_exist_is_refused_with_the_names_of_those_that_do() {
     for part in ["climbing-disk", "climbing-disc", "forward-flight"] {
         assert!(message.contains(part), "{message}");
     }
+}
+
+#[test]
+fn an_example_that_fails_is_named_and_the_others_run() {
+    let program = support::installed("failing-example");
+    // In the place of Python.
+    let script = r#"case "$2" in
+*engine_off.py) echo "no engine" >&2; exit 1 ;;
+*) echo "progress 1 2 half"; echo flown; touch "$6/table.csv" ;;
+esac"#;
+    support::install_interpreter(&program, script);
+    let out = scratch().join("failing-example-results");
+    let mut command = Command::new(&program);
+    command.arg("--library").arg(support::library());
+    command.args(["examples", "engine-off", "hover-trim", "--out"]);
+    let output = command.arg(&out).output().unwrap();
+    let (text, errors) = (
+        String::from_utf8_lossy(&output.stdout),
+        String::from_utf8_lossy(&output.stderr),
+    );
+    assert_eq!(output.status.code(), Some(1), "{text}{errors}");
+    assert!(errors.contains("no engine"), "{errors}");
+    assert!(
+        errors.contains("these examples failed: engine-off;"),
+        "{errors}"
+    );
+    // Progress is for the bar.
+    assert!(
+        text.contains("flown") && !text.contains("progress"),
+        "{text}"
+    );
+    assert!(out.join("hover-trim/table.csv").is_file());
 }
 
 #[test]
