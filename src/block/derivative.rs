@@ -12,7 +12,7 @@ use super::{
     variables::{Causality, RealRef, STATES, real},
 };
 use crate::host::memory::Watch;
-use num_dual::Dual64;
+use rotor::numbers::Dual64;
 use rotor::{OperatingPoint, Rotor, SolveError, State, Workspace};
 use thiserror::Error;
 

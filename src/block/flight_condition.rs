@@ -12,7 +12,7 @@ use nalgebra::{Matrix3, Vector3};
 use rotor::{
     Drive, OperatingPoint,
     air::{Air, STANDARD_GRAVITY},
-    scalar::Scalar,
+    numbers::Scalar,
 };
 
 /// The operating point that the inputs describe, and the attitude of the shaft.

@@ -8,7 +8,7 @@ use super::{
 };
 use core::f64::consts::{PI, SQRT_2};
 use nalgebra::Matrix3;
-use rotor::{BladeLoads, Drive, HubLoads, OperatingPoint, Response, Rotor, State, scalar::Scalar};
+use rotor::{BladeLoads, Drive, HubLoads, OperatingPoint, Response, Rotor, State, numbers::Scalar};
 
 /// Number of stations along the blade.
 const STATIONS: usize = real::STATION__RADIUS.len();

@@ -13,7 +13,7 @@ use rotor::{
     OperatingPoint, Rotor,
     airfoil::{Airfoil, Axis},
     geometry::{Missed, lock_number},
-    scalar::Scalar,
+    numbers::Scalar,
 };
 
 /// Largest chord over the rotor radius, from the most slender blades to wide propellers.

@@ -4,7 +4,7 @@ use super::{references::Reals, variables::STATES};
 use rotor::{
     State,
     disc::Flap,
-    scalar::Scalar,
+    numbers::Scalar,
     state::{MAX_FLAPPING_BLADES, MAX_INFLOW_STATES},
 };
 

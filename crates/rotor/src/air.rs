@@ -1,6 +1,6 @@
 //! Air: the standard atmosphere, or given values; viscosity and speed of sound.
 
-use super::scalar::{C, Scalar};
+use super::numbers::{C, Scalar};
 
 /// Specific gas constant of air, J/(kg K) (ISO 2533:1975).
 const GAS_CONSTANT: f64 = 287.052_87;

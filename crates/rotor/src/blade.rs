@@ -1,11 +1,11 @@
-//! A blade at an operating point: its elements one by one.
+//! A blade at an operating point: its elements, block by block.
 
 use super::{
     air::Air,
     airfoil::{Airfoil, SectionModel, Similarity},
     element::{Element, Section},
-    geometry::{Elements, Geometry},
-    scalar::Scalar,
+    geometry::{Block, Elements, Geometry},
+    numbers::{Lanes, Plain, Scalar},
     tip_loss::TipLoss,
     work::Work,
 };
@@ -44,31 +44,33 @@ impl<'a, S: Scalar> Blade<'a, S> {
         self.elements.width
     }
 
-    /// Element `i` from the root.
-    pub fn element(&self, i: usize) -> Element<'a, S> {
-        let (elements, air) = (self.elements, self.air);
-        let chord = elements.chord[i];
+    /// The elements of a block, side by side.
+    #[inline(always)]
+    pub fn block<L: Lanes<One = S>>(&self, block: &'a Block) -> Element<'a, L> {
+        let air = self.air;
+        let chord = L::Real::load(&block.chord);
+        let twist = L::Real::load(&block.twist);
         Element {
             blades: f64::from(self.geometry.blades),
-            radius: elements.radius[i],
+            radius: L::Real::load(&block.radius),
             root_radius: self.geometry.cutout() * self.geometry.radius,
             tip_radius: self.geometry.radius,
             chord,
-            pitch: self.collective + elements.twist[i],
-            lifting_share: self.lifting_shares[i],
+            pitch: L::splat(self.collective).plus_real(twist),
+            lifting_share: L::from_lanes(|lane| self.lifting_shares[block.element(lane)]),
             tip_loss: self.tip_loss,
             section: Section {
-                inner: &self.airfoils[elements.inner_airfoil[i]],
-                outer: &self.airfoils[elements.outer_airfoil[i]],
-                outer_share: elements.outer_share[i],
+                airfoils: self.airfoils,
+                shares: &block.airfoils,
             },
             model: self.section,
             unit_flow: Similarity {
-                reynolds: air.density * chord / air.viscosity,
-                mach: S::one() / air.speed_of_sound,
+                reynolds: L::splat(air.density / air.viscosity).times(chord),
+                mach: L::splat(S::one() / air.speed_of_sound),
             },
-            density: air.density,
+            density: L::splat(air.density),
             work: self.work,
+            count: block.count as u64,
         }
     }
 }

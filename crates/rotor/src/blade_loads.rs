@@ -1,6 +1,9 @@
 //! Loads along the blade.
 
-use super::{geometry::Elements, scalar::Scalar};
+use super::{
+    geometry::Elements,
+    numbers::{Lanes, Scalar},
+};
 
 /// The loads and the flow at a blade element: those of blade 1, or azimuth averages. SI units, rad.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -28,10 +31,11 @@ pub struct ElementLoads<S = f64> {
     pub mach: S,
 }
 
-impl<S: Scalar> ElementLoads<S> {
+impl<L: Lanes> ElementLoads<L> {
     /// No loads, no flow.
+    #[inline(always)]
     pub fn zero() -> Self {
-        let zero = S::zero();
+        let zero = L::nil();
         Self {
             thrust: zero,
             torque: zero,
@@ -46,6 +50,25 @@ impl<S: Scalar> ElementLoads<S> {
         }
     }
 
+    /// A function of each quantity.
+    #[inline(always)]
+    pub(crate) fn map<M>(&self, function: impl Fn(L) -> M) -> ElementLoads<M> {
+        ElementLoads {
+            thrust: function(self.thrust),
+            torque: function(self.torque),
+            angle_of_attack: function(self.angle_of_attack),
+            induced_velocity: function(self.induced_velocity),
+            mean_induced_velocity: function(self.mean_induced_velocity),
+            speed: function(self.speed),
+            lift_coefficient: function(self.lift_coefficient),
+            drag_coefficient: function(self.drag_coefficient),
+            reynolds: function(self.reynolds),
+            mach: function(self.mach),
+        }
+    }
+}
+
+impl<S: Scalar> ElementLoads<S> {
     /// `self + weight * (other - self)`.
     fn towards(&self, other: &Self, weight: f64) -> Self {
         let mix =

@@ -6,7 +6,7 @@
 //! then raise the lift less than Prandtl & Glauert's; on the suction that makes most of a real
 //! section's lift they raise it more. At Mach 0 no rule changes the lift.
 
-use super::scalar::{C, Scalar};
+use super::numbers::{C, Lanes};
 
 /// Above this Mach number the rules are held: Prandtl & Glauert's is singular at Mach 1, and no
 /// rule is meant for transonic flow.
@@ -31,7 +31,8 @@ pub enum Compressibility {
 impl Compressibility {
     /// Lift coefficient at the Mach number `mach` (>= 0, held above 0.9) from the incompressible
     /// one, `lift` (any value).
-    pub fn correct<S: Scalar>(self, lift: S, mach: S) -> S {
+    #[inline(always)]
+    pub fn correct<S: Lanes>(self, lift: S, mach: S) -> S {
         match self {
             Self::None => lift,
             Self::PrandtlGlauert | Self::KarmanTsien | Self::Laitone => {
@@ -46,7 +47,8 @@ impl Compressibility {
     /// * Prandtl & Glauert: beta = sqrt(1 - M^2)
     /// * Karman & Tsien: beta + M^2/(1 + beta) cl/2
     /// * Laitone: beta + M^2 (1 + (gamma - 1)/2 M^2)/beta cl/2
-    pub fn divisor<S: Scalar>(self, lift: S, mach: S) -> S {
+    #[inline(always)]
+    pub fn divisor<S: Lanes>(self, lift: S, mach: S) -> S {
         let mach_squared = {
             let held = mach.at_most(MAX_MACH);
             held * held
@@ -54,7 +56,7 @@ impl Compressibility {
         let beta = (C(1.0) - mach_squared).sqrt();
         let half_lift = C(0.5) * lift.abs();
         match self {
-            Self::None => S::one(),
+            Self::None => S::unit(),
             Self::PrandtlGlauert => beta,
             Self::KarmanTsien => beta + mach_squared / (C(1.0) + beta) * half_lift,
             Self::Laitone => {

@@ -3,13 +3,13 @@
 
 use super::{
     blade::Blade,
-    disc::{Azimuth, BladePosition, BladePositions, DiscFlow, Flap, WindAxes},
+    disc::{Azimuth, BladeFlow, BladePosition, DiscFlow, Flap, OfPositions, WindAxes},
     flapping::{Action, Freedom},
     inflow::{DescentLaw, Disc, Ground, InflowStates, Momentum, Stream},
     models::Blades,
+    numbers::{Scalar, Width},
     operating_point::OperatingPoint,
     rotor::Rotor,
-    scalar::Scalar,
     state::State,
     work::Work,
 };
@@ -34,7 +34,7 @@ pub struct Evaluation<'a, S = f64> {
     pub(crate) gravity: Vector3<S>,
     /// In wind axes.
     pub(crate) inflow_states: InflowStates<S>,
-    pub(crate) positions: BladePositions<S>,
+    pub(crate) positions: OfPositions<BladePosition<S>>,
     /// Whether the positions are those of the blades, rather than those of an azimuth average.
     pub(crate) is_individual: bool,
     /// None for rigid blades.
@@ -153,9 +153,21 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
         turns || self.point.is_driven()
     }
 
+    /// The flow at each blade position.
+    pub(crate) fn blade_flows(&self) -> OfPositions<BladeFlow<S>> {
+        let flow = |position| self.flow.at_blade(position);
+        self.positions.iter().map(flow).collect()
+    }
+
     /// The disc as the inflow models see it, with the lift of the elements ending as
-    /// `lifting_shares` say, and with sections counted by `work`.
-    pub(crate) fn disc<'b>(&'b self, lifting_shares: &'b [S], work: &'b Work) -> Disc<'b, S> {
+    /// `lifting_shares` say, with sections counted by `work`, and computed in lanes of a width.
+    pub(crate) fn disc<'b>(
+        &'b self,
+        lifting_shares: &'b [S],
+        work: &'b Work,
+        blade_flows: &'b [BladeFlow<S>],
+        width: Width,
+    ) -> Disc<'b, S> {
         let rotor = self.rotor;
         let models = rotor.models();
         Disc {
@@ -172,6 +184,8 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
             },
             flow: &self.flow,
             positions: &self.positions,
+            blade_flows,
+            width,
             is_individual: self.is_individual,
             momentum: Momentum {
                 descent: self.descent,
@@ -210,10 +224,10 @@ fn blade_positions<S: Scalar>(
     axes: &WindAxes<S>,
     state: &State<S>,
     freedom: Option<&Freedom>,
-) -> BladePositions<S> {
+) -> OfPositions<BladePosition<S>> {
     let count = rotor.geometry().blades as usize;
     let step = 2.0 * PI / count as f64;
-    BladePositions::new((0..count).map(|k| {
+    let position = |k: usize| {
         let psi = state.azimuth + step * k as f64;
         let (cos, sin) = axes.into_wind(psi.cos(), psi.sin());
         let azimuth = Azimuth { sin, cos };
@@ -224,19 +238,24 @@ fn blade_positions<S: Scalar>(
             }
             _ => rigid(rotor, azimuth),
         }
-    }))
+    };
+    (0..count).map(position).collect()
 }
 
 /// The positions over which the disc is averaged: a single one without direction where all azimuths
 /// are alike.
-fn averaging_positions<S: Scalar>(rotor: &Rotor, is_symmetric: bool) -> BladePositions<S> {
+fn averaging_positions<S: Scalar>(
+    rotor: &Rotor,
+    is_symmetric: bool,
+) -> OfPositions<BladePosition<S>> {
     if is_symmetric {
-        return BladePositions::new([rigid(rotor, Azimuth::any())].into_iter());
+        return [rigid(rotor, Azimuth::any())].into_iter().collect();
     }
-    BladePositions::new(rotor.azimuths().iter().map(|azimuth| {
+    let position = |azimuth: &Azimuth| {
         let (sin, cos) = (S::constant(azimuth.sin), S::constant(azimuth.cos));
         rigid(rotor, Azimuth { sin, cos })
-    }))
+    };
+    rotor.azimuths().iter().map(position).collect()
 }
 
 fn rigid<S: Scalar>(rotor: &Rotor, azimuth: Azimuth<S>) -> BladePosition<S> {

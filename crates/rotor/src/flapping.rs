@@ -52,8 +52,8 @@
 use super::{
     air::STANDARD_GRAVITY,
     disc::{BladePosition, DiscFlow, Flap},
+    numbers::Scalar,
     operating_point::OperatingPoint,
-    scalar::Scalar,
 };
 use core::f64::consts::PI;
 use nalgebra::Vector3;

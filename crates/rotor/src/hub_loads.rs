@@ -1,8 +1,12 @@
 //! Hub loads: force and moment on the hub, and quantities of the rotor as a whole.
 
 use super::{
-    disc::BladePosition, evaluation::Evaluation, inflow::FlowState, loads::DiscLoads,
-    operating_point::Drive, scalar::Scalar, tip_path::TipPath,
+    disc::BladePosition,
+    evaluation::Evaluation,
+    inflow::{DiscLoads, FlowState},
+    numbers::Scalar,
+    operating_point::Drive,
+    tip_path::TipPath,
 };
 use core::f64::consts::PI;
 use nalgebra::Vector3;

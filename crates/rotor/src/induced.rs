@@ -2,7 +2,7 @@
 
 use super::{
     disc::{Azimuth, WindAxes},
-    scalar::Scalar,
+    numbers::{Lanes, Scalar},
 };
 
 /// Velocity induced at a blade, m/s.
@@ -14,17 +14,19 @@ pub struct Induced<S = f64> {
     pub swirl: S,
 }
 
-impl<S: Scalar> Induced<S> {
+impl<L: Lanes> Induced<L> {
     /// Along the shaft only, m/s.
-    pub fn axial(axial: S) -> Self {
+    #[inline(always)]
+    pub fn axial(axial: L) -> Self {
         Self {
             axial,
-            swirl: S::zero(),
+            swirl: L::nil(),
         }
     }
 
     /// `factor * self`.
-    pub fn scaled(&self, factor: S) -> Self {
+    #[inline(always)]
+    pub fn scaled(&self, factor: L) -> Self {
         Self {
             axial: factor * self.axial,
             swirl: factor * self.swirl,
@@ -62,10 +64,11 @@ impl<S: Scalar> Field<S> {
         }
     }
 
-    /// At a radius r/R and an azimuth.
-    pub fn at(&self, radius_ratio: f64, azimuth: Azimuth<S>) -> Induced<S> {
+    /// At radii r/R and an azimuth.
+    #[inline(always)]
+    pub fn at<L: Lanes<One = S>>(&self, radius_ratio: L::Real, azimuth: Azimuth<S>) -> Induced<L> {
         let slope = self.cosine * azimuth.cos + self.sine * azimuth.sin;
-        Induced::axial(self.mean + slope * radius_ratio)
+        Induced::axial(L::splat(self.mean) + L::splat(slope).times(radius_ratio))
     }
 
     /// `factor * self`.

@@ -36,7 +36,7 @@
 //!
 //! The modules, each of which imports only from those before it:
 //!
-//! * numbers: `scalar`, `root`, `newton`, `phi`, `error`, `work`, `text_file`
+//! * numbers: `numbers`, `root`, `newton`, `phi`, `error`, `work`, `text_file`
 //! * air and sections: `air`, `compressibility`, `airfoil`
 //! * the blade: `geometry`, `tip_loss`
 //! * the disc: `disc`, `induced`
@@ -59,8 +59,8 @@ pub mod element;
 pub mod flapping;
 pub mod geometry;
 pub mod inflow;
+pub mod numbers;
 pub mod root;
-pub mod scalar;
 pub mod state;
 pub mod tip_loss;
 
@@ -86,6 +86,8 @@ mod stiff_step;
 mod sweep;
 mod text_file;
 mod tip_path;
+#[cfg(test)]
+mod widths;
 mod work;
 mod workspace;
 

@@ -4,10 +4,11 @@
 use super::{
     error::SolveError,
     evaluation::Evaluation,
-    loads::DiscLoads,
+    inflow::{DiscLoads, Number},
+    loads,
     root::{End, bracketed},
     rotor::end_lift_at,
-    scalar::Scalar,
+    sweep::Wanted,
     workspace::Workspace,
 };
 use core::f64::consts::PI;
@@ -16,29 +17,26 @@ use core::f64::consts::PI;
 const THRUST_TOLERANCE: f64 = 1e-13;
 
 /// The aerodynamic loads of the disc, with the lift ending where the tip loss model says. The loads
-/// of the elements are written to the workspace.
-pub(crate) fn disc_loads<S: Scalar>(
+/// of the elements are written to the workspace, if they are wanted.
+pub(crate) fn disc_loads<S: Number>(
     evaluation: &Evaluation<S>,
     workspace: &mut Workspace<S>,
+    wanted: Wanted,
 ) -> Result<DiscLoads<S>, SolveError> {
     workspace.prepare(evaluation.rotor);
     let rotor = evaluation.rotor;
     let point = &evaluation.point;
     let tip_loss = rotor.models().tip_loss;
     let blades = f64::from(rotor.geometry().blades);
-    let Workspace {
-        lifting_shares,
-        work,
-        elements,
-    } = workspace;
     if tip_loss.end_at_thrust(blades, S::zero()).is_none() {
-        return DiscLoads::new(evaluation, lifting_shares, work, elements);
+        return loads::of_all_elements(evaluation, workspace, wanted);
     }
     let mut loads_at = |coefficient: S| {
         let end = tip_loss.end_at_thrust(blades, coefficient);
         let end = end.unwrap_or(S::one());
-        end_lift_at(end, rotor.geometry(), rotor.elements(), lifting_shares);
-        DiscLoads::new(evaluation, lifting_shares, work, elements)
+        let shares = &mut workspace.lifting_shares;
+        end_lift_at(end, rotor.geometry(), rotor.elements(), shares);
+        loads::of_all_elements(evaluation, workspace, wanted)
     };
     // More thrust ends the lift further inboard, which reduces the thrust: there is one solution.
     // The published coefficient is over the tip speed alone. Here the airspeed is added to it, so

@@ -1,7 +1,7 @@
 //! Newton's method for several equations in as many unknowns.
 
+use crate::numbers::Dual64;
 use nalgebra::{DMatrix, DVector};
-use num_dual::Dual64;
 
 /// Bound on the matrices of slopes.
 const MAX_MATRICES: usize = 30;

@@ -2,7 +2,7 @@
 
 use super::{
     air::{Air, STANDARD_GRAVITY},
-    scalar::Scalar,
+    numbers::Scalar,
     state::State,
 };
 use nalgebra::Vector3;

@@ -1,8 +1,11 @@
 //! Rates of change of the states.
 
 use super::{
-    evaluation::Evaluation, inflow::DiscLoading, loads::DiscLoads, operating_point::Drive,
-    scalar::Scalar, state::State,
+    evaluation::Evaluation,
+    inflow::{DiscLoading, DiscLoads},
+    numbers::Scalar,
+    operating_point::Drive,
+    state::State,
 };
 use core::f64::consts::PI;
 

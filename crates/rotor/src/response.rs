@@ -1,9 +1,9 @@
 //! The response of the rotor at an operating point in a state.
 
 use super::{
-    blade_loads::BladeLoads, error::SolveError, hub_loads::HubLoads, lift_end::disc_loads,
-    operating_point::OperatingPoint, rates, rotor::Rotor, scalar::Scalar, state::State,
-    workspace::Workspace,
+    blade_loads::BladeLoads, error::SolveError, hub_loads::HubLoads, inflow::Number,
+    lift_end::disc_loads, operating_point::OperatingPoint, rates, rotor::Rotor, state::State,
+    sweep::Wanted, workspace::Workspace,
 };
 
 /// The response of the rotor: hub loads, rates of the states, and blade loads.
@@ -25,14 +25,14 @@ impl Rotor {
     ///
     /// Fails where a momentum equation has no solution, which happens only if numbers are not
     /// finite or overflow.
-    pub fn respond<'a, S: Scalar>(
+    pub fn respond<'a, S: Number>(
         &'a self,
         point: &OperatingPoint<S>,
         state: &State<S>,
         workspace: &'a mut Workspace<S>,
     ) -> Result<Response<'a, S>, SolveError> {
         let evaluation = self.evaluate(point, state);
-        let loads = disc_loads(&evaluation, workspace)?;
+        let loads = disc_loads(&evaluation, workspace, Wanted::Distribution)?;
         Ok(Response {
             hub: HubLoads::new(&evaluation, &loads),
             rates: rates::of(&evaluation, &loads),
@@ -45,7 +45,7 @@ impl Rotor {
     }
 
     /// Rates of the states alone, per second. Fails as `respond` does.
-    pub fn rates<S: Scalar>(
+    pub fn rates<S: Number>(
         &self,
         point: &OperatingPoint<S>,
         state: &State<S>,
@@ -58,7 +58,7 @@ impl Rotor {
             });
         }
         let evaluation = self.evaluate(point, state);
-        let loads = disc_loads(&evaluation, workspace)?;
+        let loads = disc_loads(&evaluation, workspace, Wanted::Sums)?;
         Ok(rates::of(&evaluation, &loads))
     }
 }

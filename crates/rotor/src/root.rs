@@ -1,5 +1,6 @@
-//! A bracketed root of one equation in one unknown.
+//! Bracketed roots of equations in one unknown, side by side.
 
+use super::numbers::{Mask, Plain};
 use thiserror::Error;
 
 /// Why no root was returned. A finite residual that changes its sign always has one.
@@ -16,19 +17,29 @@ pub enum RootError {
     OutOfIterations,
 }
 
-/// One end of a bracket: a value of the unknown, and the residual there.
+/// One end of a bracket in each lane: a value of the unknown, and the residual there.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct End {
+pub struct End<V = f64> {
     /// The value, in the unit of the unknown.
-    pub at: f64,
+    pub at: V,
     /// The residual there, in any unit.
-    pub residual: f64,
+    pub residual: V,
 }
 
-/// Root of `residual` between two ends where it has different signs, by Chandrupatla's method
-/// (1997, "A new hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function
-/// without using derivatives", Adv. Eng. Softw. 28(3), p. 145): inverse quadratic interpolation
-/// where the last three points allow it, else bisection.
+impl<V: Plain> End<V> {
+    /// `yes` where a condition holds, else `no`.
+    pub fn select(condition: V::Mask, yes: Self, no: Self) -> Self {
+        Self {
+            at: V::select(condition, yes.at, no.at),
+            residual: V::select(condition, yes.residual, no.residual),
+        }
+    }
+}
+
+/// Root of `residual` between two ends where it has different signs, in each lane, by
+/// Chandrupatla's method (1997, "A new hybrid quadratic/bisection algorithm for finding the zero of
+/// a nonlinear function without using derivatives", Adv. Eng. Softw. 28(3), p. 145): inverse
+/// quadratic interpolation where the last three points allow it, else bisection.
 ///
 /// Bound: after as many steps as bisection alone would need, only bisection is used. So there are
 /// never more than twice as many steps.
@@ -39,84 +50,95 @@ pub struct End {
 ///
 /// # Errors
 ///
-/// [`RootError::NotFinite`] if an end or a residual is NaN or infinite; [`RootError::NoSignChange`]
-/// if the residuals at both ends have the same sign.
-pub fn bracketed(
-    mut residual: impl FnMut(f64) -> f64,
-    first: End,
-    last: End,
-    tolerance: f64,
-) -> Result<f64, RootError> {
-    if ![first.at, first.residual, last.at, last.residual]
-        .iter()
-        .all(|x| x.is_finite())
-    {
+/// [`RootError::NotFinite`] if an end or a residual is NaN or infinite in any lane;
+/// [`RootError::NoSignChange`] if the residuals at both ends of a lane have the same sign.
+pub fn bracketed<V: Plain>(
+    mut residual: impl FnMut(V) -> V,
+    first: End<V>,
+    last: End<V>,
+    tolerance: V,
+) -> Result<V, RootError> {
+    let is_finite = |x: V| x.negligible(f64::MAX);
+    let same_sign = |a: V, b: V| {
+        let (a, b) = (a.is_above(0.0), b.is_above(0.0));
+        (a & b) | (!a & !b)
+    };
+    let larger = |a: V, b: V| V::select(a.below(b), b, a);
+    let ends_are_finite = is_finite(first.at)
+        & is_finite(first.residual)
+        & is_finite(last.at)
+        & is_finite(last.residual);
+    if !ends_are_finite.all() {
         return Err(RootError::NotFinite);
     }
-    if first.residual == 0.0 || first.at == last.at {
-        return Ok(first.at);
+    let is_first = first.residual.negligible(0.0) | (first.at - last.at).negligible(0.0);
+    let mut is_found = is_first | last.residual.negligible(0.0);
+    let mut found = V::select(is_first, first.at, last.at);
+    if is_found.all() {
+        return Ok(found);
     }
-    if last.residual == 0.0 {
-        return Ok(last.at);
-    }
-    if (first.residual > 0.0) == (last.residual > 0.0) {
+    if (same_sign(first.residual, last.residual) & !is_found).any() {
         return Err(RootError::NoSignChange);
     }
-    let tolerance = tolerance.max(2.0 * f64::EPSILON * first.at.abs().max(last.at.abs()));
+    let rounding = larger(first.at.abs(), last.at.abs()) * (2.0 * f64::EPSILON);
+    let tolerance = larger(tolerance, rounding);
     let bisections = {
-        let width = (last.at - first.at).abs();
-        libm::ceil(libm::log2((width / tolerance).max(1.0))) as u32 + 1
+        let widths = (last.at - first.at).abs() / tolerance;
+        let width = widths.store()[..V::COUNT]
+            .iter()
+            .fold(1.0, |a, b| f64::max(a, *b));
+        libm::ceil(libm::log2(width)) as u32 + 1
     };
     // The root lies between `new` and `other`; `old` is the point that `new` replaced.
     let (mut new, mut other) = (first, last);
-    let mut part = 0.5;
+    let mut part = V::splat(0.5);
     for step in 0..2 * bisections {
         let at = new.at + part * (other.at - new.at);
         let next = End {
             at,
             residual: residual(at),
         };
-        if !next.residual.is_finite() {
+        if !(is_found | is_finite(next.residual)).all() {
             return Err(RootError::NotFinite);
         }
-        let old;
-        if (next.residual > 0.0) == (new.residual > 0.0) {
-            old = new;
-        } else {
-            (old, other) = (other, new);
-        }
+        let is_same = same_sign(next.residual, new.residual);
+        let old = End::select(is_same, new, other);
+        other = End::select(is_same, other, new);
         new = next;
-        let best = if new.residual.abs() < other.residual.abs() {
-            new
-        } else {
-            other
-        };
+        let is_new = new.residual.abs().below(other.residual.abs());
+        let best = End::select(is_new, new, other);
         let span = (other.at - new.at).abs();
-        if best.residual == 0.0 || span <= 2.0 * tolerance {
-            return Ok(best.at);
+        let is_close = !span.above(tolerance * 2.0);
+        let ends = (best.residual.negligible(0.0) | is_close) & !is_found;
+        found = V::select(ends, best.at, found);
+        is_found = is_found | ends;
+        if is_found.all() {
+            return Ok(found);
         }
         part = if step < bisections {
             interpolation(new, other, old)
         } else {
-            0.5
+            V::splat(0.5)
         };
         let margin = tolerance / span;
-        part = part.clamp(margin, 1.0 - margin);
+        let far = V::splat(1.0) - margin;
+        part = V::select(part.below(margin), margin, part);
+        part = V::select(part.above(far), far, part);
     }
     Err(RootError::OutOfIterations)
 }
 
 /// Where the root is expected, as a part of the way from `new` to `other` (Chandrupatla 1997,
 /// eqs. 6 to 8).
-fn interpolation(new: End, other: End, old: End) -> f64 {
+fn interpolation<V: Plain>(new: End<V>, other: End<V>, old: End<V>) -> V {
+    let one = V::splat(1.0);
     let xi = (new.at - other.at) / (old.at - other.at);
     let phi = (new.residual - other.residual) / (old.residual - other.residual);
-    let is_safe = phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi;
-    if !is_safe {
-        return 0.5;
-    }
+    let is_safe = (phi * phi).below(xi) & ((one - phi) * (one - phi)).below(one - xi);
     let (a, b, c) = (new.residual, other.residual, old.residual);
-    a / (b - a) * c / (b - c) + (old.at - new.at) / (other.at - new.at) * a / (c - a) * b / (c - b)
+    let near = a / (b - a) * c / (b - c);
+    let far = (old.at - new.at) / (other.at - new.at) * a / (c - a) * b / (c - b);
+    V::select(is_safe, near + far, V::splat(0.5))
 }
 
 #[cfg(test)]

@@ -6,8 +6,8 @@ use super::{
     geometry::{Elements, Geometry, Rotation},
     inflow::ThrustRadius,
     models::Models,
+    numbers::Scalar,
     operating_point::OperatingPoint,
-    scalar::Scalar,
     state::State,
     tip_loss::lifting_share,
 };

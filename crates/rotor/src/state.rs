@@ -3,7 +3,7 @@
 use super::{
     disc::Flap,
     inflow::{InflowStates, MAX_STATES},
-    scalar::Scalar,
+    numbers::Scalar,
 };
 
 /// Maximum number of blades that can flap.

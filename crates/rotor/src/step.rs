@@ -1,7 +1,7 @@
 //! One step of the states in time.
 
 use super::{
-    error::SolveError, operating_point::OperatingPoint, rates, rotor::Rotor, scalar::Scalar,
+    error::SolveError, inflow::Number, operating_point::OperatingPoint, rates, rotor::Rotor,
     state::State, workspace::Workspace,
 };
 
@@ -53,7 +53,7 @@ impl Rotor {
     /// The state one step of `duration` s later, by Heun's method of order 3 (Heun 1900, Z. Math.
     /// Phys. 45, p. 23). `point_at`: the operating point at a time (s) after the beginning of the
     /// step. Fails as `respond` does.
-    pub fn step<S: Scalar>(
+    pub fn step<S: Number>(
         &self,
         mut point_at: impl FnMut(S) -> OperatingPoint<S>,
         state: &State<S>,
@@ -65,7 +65,7 @@ impl Rotor {
     }
 
     /// The same from the rates at the beginning of the step, `first`, where they are known.
-    pub fn step_from<S: Scalar>(
+    pub fn step_from<S: Number>(
         &self,
         first: &State<S>,
         mut point_at: impl FnMut(S) -> OperatingPoint<S>,

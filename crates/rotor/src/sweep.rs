@@ -1,13 +1,13 @@
-//! One blade element moved around the azimuth: its loads at each blade position, and their average.
+//! Blade elements side by side moved around the azimuth: their loads at each blade position.
 
 use super::{
     blade_loads::ElementLoads,
-    disc::{AZIMUTHS, Azimuth, BladePosition, DiscFlow, SectionFlow},
+    disc::{BladeFlow, SectionFlow},
     element::{Element, SectionLoad},
+    geometry::Block,
     induced::Induced,
-    scalar::Scalar,
+    numbers::{Lanes, Plain, Scalar},
 };
-use nalgebra::Vector3;
 
 /// Where an inflow model gives its induced velocity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -18,15 +18,15 @@ pub enum InducedAt {
     Annulus,
 }
 
-/// The flow at one blade's section, the axial induced velocity at the blade (m/s), and the loads.
-fn section_load<S: Scalar>(
-    element: &Element<S>,
-    flow: &DiscFlow<S>,
+/// The flow at one blade's sections, the axial induced velocity at the blade (m/s), and the loads.
+#[inline(always)]
+fn section_load<L: Lanes>(
+    element: &Element<L>,
     at: InducedAt,
-    position: &BladePosition<S>,
-    induced: Induced<S>,
-) -> (SectionFlow<S>, S, SectionLoad<S>) {
-    let section = flow.at_section(element.radius, position);
+    blade: &BladeFlow<L::One>,
+    induced: Induced<L>,
+) -> (SectionFlow<L>, L, SectionLoad<L>) {
+    let section = blade.at_section::<L>(element.radius);
     let pitch = element.pitch + section.pitch;
     let in_plane = section.in_plane - induced.swirl;
     let axial = match at {
@@ -37,128 +37,153 @@ fn section_load<S: Scalar>(
     (section, axial, load)
 }
 
-/// Thrust of all blades' sections per unit of radius, N/m, averaged over the blade positions.
-pub fn mean_thrust<S: Scalar>(
-    element: &Element<S>,
-    flow: &DiscFlow<S>,
-    at: InducedAt,
-    positions: &[BladePosition<S>],
-    induced: impl Fn(&BladePosition<S>) -> Induced<S>,
-) -> S {
-    let normal = |position: &BladePosition<S>| {
-        let (section, _, load) = section_load(element, flow, at, position, induced(position));
-        load.normal * section.flap_cos
-    };
-    positions.iter().map(normal).sum::<S>() / positions.len() as f64 * element.blades
+/// Sums over the elements of one blade, in each lane, per unit of width, at one position.
+#[derive(Debug, Clone, Copy)]
+pub struct BladeSums<L> {
+    /// Force along the shaft, N/m.
+    pub thrust: L,
+    /// Force towards the shaft, N/m.
+    pub inwards: L,
+    /// Force against the motion of the blade, N/m.
+    pub tangential: L,
+    /// Moment of the force along n about the hub's centre, N.
+    pub up: L,
+    /// Moment of the tangential force about the blade's projection on the disc, N.
+    pub twisting: L,
+    /// Torque that the blade absorbs, N.
+    pub torque: L,
+    /// Moment about the hinge, N.
+    pub hinge_moment: L,
 }
 
-/// The loads of all blades' sections per unit of radius, averaged over the blade positions, in wind
-/// axes.
+impl<L: Lanes> BladeSums<L> {
+    /// No loads.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        Self {
+            thrust: L::nil(),
+            inwards: L::nil(),
+            tangential: L::nil(),
+            up: L::nil(),
+            twisting: L::nil(),
+            torque: L::nil(),
+            hinge_moment: L::nil(),
+        }
+    }
+
+    /// Adds elements, in the lanes whose `counts` is 1 and not 0.
+    ///
+    /// A section's force is `normal` along n and `tangential` against e_t, and acts at X e_r + Z
+    /// e_z; its moment about the hub is -normal (X cos beta + Z sin beta) e_t + tangential (Z e_r -
+    /// X e_z).
+    #[inline(always)]
+    fn add(&mut self, section: &SectionFlow<L>, load: &SectionLoad<L>, counts: L::Real) {
+        let (normal, tangential) = (load.normal.times(counts), load.tangential.times(counts));
+        let lever = section.out * section.flap_cos + section.up * section.flap_sin;
+        self.thrust += normal * section.flap_cos;
+        self.inwards += normal * section.flap_sin;
+        self.tangential += tangential;
+        self.up += normal * lever;
+        self.twisting += tangential * section.up;
+        self.torque += tangential * section.out;
+        self.hinge_moment += normal.times(section.outboard);
+    }
+}
+
+/// What of the loads is wanted.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Wanted {
+    /// The sums over the blade.
+    Sums,
+    /// Also the loads along the blade, and where it is stalled.
+    Distribution,
+}
+
+/// The loads of a block of elements at each blade position.
 #[derive(Debug)]
-pub struct Sweep<'a, S = f64> {
-    element: &'a Element<'a, S>,
-    flow: &'a DiscFlow<S>,
-    positions: &'a [BladePosition<S>],
+pub struct Sweep<'a, L: Lanes> {
+    /// The elements.
+    pub element: &'a Element<'a, L>,
+    /// The same by their numbers.
+    pub block: &'a Block,
+    /// The blades' positions, and the flow there.
+    pub blades: &'a [BladeFlow<L::One>],
+    /// One for each position.
+    pub sums: &'a mut [BladeSums<L>],
+    wanted: Wanted,
+    counts: L::Real,
     /// Number of positions that `loads` averages: all, or only the first, that of blade 1.
     shown: usize,
-    /// N/m.
-    pub force: Vector3<S>,
-    /// About the hub's centre, N.
-    pub moment: Vector3<S>,
-    /// Fraction of the blade positions at which the element is stalled.
-    pub stalled: f64,
-    /// One blade's thrust at each position, N/m.
-    pub thrust_at: [S; AZIMUTHS],
-    /// One blade's moment about its hinge at each position, N.
-    pub hinge_moment_at: [S; AZIMUTHS],
-    mean: ElementLoads<S>,
+    /// Number of positions at which each element is stalled.
+    pub stalled: L::Real,
+    mean: ElementLoads<L>,
 }
 
-impl<'a, S: Scalar> Sweep<'a, S> {
+impl<'a, L: Lanes> Sweep<'a, L> {
     /// `is_individual`: whether the positions are those of the blades, so that `loads` are blade
     /// 1's.
+    #[inline(always)]
     pub fn new(
-        element: &'a Element<'a, S>,
-        flow: &'a DiscFlow<S>,
-        positions: &'a [BladePosition<S>],
+        (element, block): (&'a Element<'a, L>, &'a Block),
+        blades: &'a [BladeFlow<L::One>],
+        sums: &'a mut [BladeSums<L>],
         is_individual: bool,
+        wanted: Wanted,
     ) -> Self {
         Self {
             element,
-            flow,
-            positions,
-            shown: if is_individual { 1 } else { positions.len() },
-            force: Vector3::zeros(),
-            moment: Vector3::zeros(),
-            stalled: 0.0,
-            thrust_at: [S::zero(); AZIMUTHS],
-            hinge_moment_at: [S::zero(); AZIMUTHS],
+            block,
+            blades,
+            sums,
+            wanted,
+            counts: L::Real::load(&block.counts),
+            shown: if is_individual { 1 } else { blades.len() },
+            stalled: L::Real::nil(),
             mean: ElementLoads::zero(),
         }
     }
 
-    /// Computes the loads in the velocity that `induced` gives for each position.
-    pub fn load_in<E>(
-        &mut self,
-        at: InducedAt,
-        induced: impl Fn(usize, &BladePosition<S>) -> Result<Induced<S>, E>,
-    ) -> Result<(), E> {
-        for (i, position) in self.positions.iter().enumerate() {
-            let induced = induced(i, position)?;
-            let (section, axial, load) =
-                section_load(self.element, self.flow, at, position, induced);
-            self.add(i, &section, &load, axial, position.azimuth);
-        }
-        Ok(())
+    /// Computes the loads at a position in an induced velocity. Returns the thrust of one blade's
+    /// sections per unit of radius, N/m, in the lanes that count.
+    #[inline(always)]
+    pub fn load_at(&mut self, position: usize, at: InducedAt, induced: Induced<L>) -> L {
+        let blade = &self.blades[position];
+        let (section, axial, load) = section_load(self.element, at, blade, induced);
+        self.add(position, &section, &load, axial);
+        (load.normal * section.flap_cos).times(self.counts)
     }
 
     /// Uses the same load and axial induced velocity (m/s) at all positions.
-    pub fn take(&mut self, load: &SectionLoad<S>, induced: S) {
-        for (i, position) in self.positions.iter().enumerate() {
-            let section = self.flow.at_section(self.element.radius, position);
-            self.add(i, &section, load, induced, position.azimuth);
+    #[inline(always)]
+    pub fn take(&mut self, load: &SectionLoad<L>, induced: L) {
+        for position in 0..self.blades.len() {
+            let section = self.blades[position].at_section::<L>(self.element.radius);
+            self.add(position, &section, load, induced);
         }
     }
 
-    /// A section's force is `normal` along n and `tangential` against e_t, and acts at X e_r + Z
-    /// e_z; its moment about the hub is -normal (X cos beta + Z sin beta) e_t + tangential (Z e_r -
-    /// X e_z).
+    #[inline(always)]
     fn add(
         &mut self,
         position: usize,
-        section: &SectionFlow<S>,
-        load: &SectionLoad<S>,
-        induced: S,
-        azimuth: Azimuth<S>,
+        section: &SectionFlow<L>,
+        load: &SectionLoad<L>,
+        induced: L,
     ) {
-        let Azimuth { sin, cos } = azimuth;
-        let share = 1.0 / self.positions.len() as f64;
-        let blades = share * self.element.blades;
-        let (normal, tangential) = (load.normal * blades, load.tangential * blades);
-        let inwards = normal * section.flap_sin;
-        self.force += Vector3::new(
-            inwards * cos - tangential * sin,
-            inwards * sin + tangential * cos,
-            normal * section.flap_cos,
-        );
-        let up = normal * (section.out * section.flap_cos + section.up * section.flap_sin);
-        let twisting = tangential * section.up;
-        self.moment += Vector3::new(
-            -up * sin - twisting * cos,
-            up * cos - twisting * sin,
-            -tangential * section.out,
-        );
-        self.thrust_at[position] = load.normal * section.flap_cos;
-        self.hinge_moment_at[position] = load.normal * section.outboard;
-        if self.element.is_stalled(load) {
-            self.stalled += share;
+        self.sums[position].add(section, load, self.counts);
+        if self.wanted == Wanted::Sums {
+            return;
         }
+        let stalled = self.element.is_stalled(load);
+        let counts = L::Real::select(stalled, self.counts, L::Real::nil());
+        self.stalled += counts;
         if position < self.shown {
             self.show(section, load, induced);
         }
     }
 
-    fn show(&mut self, section: &SectionFlow<S>, load: &SectionLoad<S>, induced: S) {
+    #[inline(always)]
+    fn show(&mut self, section: &SectionFlow<L>, load: &SectionLoad<L>, induced: L) {
         let share = 1.0 / self.shown as f64;
         let all = share * self.element.blades;
         let shown = &mut self.mean;
@@ -171,15 +196,23 @@ impl<'a, S: Scalar> Sweep<'a, S> {
         shown.induced_velocity += induced * share;
     }
 
-    /// The loads of blade 1, or the average over all positions; `mean_induced` is the mean induced
-    /// velocity around the annulus, m/s.
-    pub fn loads(&self, mean_induced: S) -> ElementLoads<S> {
+    /// Writes the loads of blade 1, or the average over all positions, to those of the blade's
+    /// elements; `mean_induced` is the mean induced velocity around the annulus, m/s.
+    #[inline(always)]
+    pub fn write<S: Scalar>(&self, mean_induced: L, loads: &mut [ElementLoads<S>])
+    where
+        L: Lanes<One = S>,
+    {
         let flow = self.element.similarity(self.mean.speed);
-        ElementLoads {
+        let mean = ElementLoads {
             mean_induced_velocity: mean_induced,
             reynolds: flow.reynolds,
             mach: flow.mach,
             ..self.mean
+        };
+        let block = self.block.first..self.block.first + self.block.count;
+        for (lane, load) in loads[block].iter_mut().enumerate() {
+            *load = mean.map(|quantity| quantity.lane(lane));
         }
     }
 }

@@ -7,7 +7,7 @@
 
 use super::{
     geometry::Geometry,
-    scalar::{C, Scalar},
+    numbers::{C, Lanes, Mask, Scalar},
 };
 use core::f64::consts::FRAC_2_PI;
 
@@ -33,13 +33,16 @@ pub enum TipLoss {
     PrandtlThrust,
 }
 
-/// What the loss of a blade element depends on.
+/// From this f on F differs from 1 by less than its rounding.
+const NO_LOSS: f64 = 38.0;
+
+/// What the loss of blade elements depends on.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Span {
+pub struct Span<V = f64> {
     /// Number of blades N, >= 1.
     pub blades: f64,
     /// r/R of the element's middle, above that of the cutout and below 1.
-    pub radius_ratio: f64,
+    pub radius_ratio: V,
     /// r/R of the root cutout, above 0 and below 1.
     pub cutout: f64,
 }
@@ -61,26 +64,34 @@ impl TipLoss {
     /// with sin phi = lambda/r. At the root f = (N/2) (r - r0)/(r0 |sin phi|).
     ///
     /// * `sin_inflow`: sine of the inflow angle phi, -1 to 1
-    pub fn factor<S: Scalar>(self, span: &Span, sin_inflow: S) -> S {
-        let Span {
-            blades,
-            radius_ratio,
-            cutout,
-        } = *span;
-        if sin_inflow.value() == 0.0 {
-            return S::one();
-        }
-        // From the distance to an end of the blade over the radius of the inner of the two.
-        let factor_at = |distance: f64| {
-            let f = C(0.5 * blades * distance) / sin_inflow.abs();
-            C(FRAC_2_PI) * (-f).exp().acos()
+    #[inline(always)]
+    pub fn factor<L: Lanes>(self, span: &Span<L::Real>, sin_inflow: L) -> L {
+        let radius_ratio = span.radius_ratio;
+        let mut distance = (L::Real::unit() - radius_ratio) / radius_ratio;
+        let mut is_last = match self {
+            Self::Prandtl => true,
+            Self::PrandtlTipAndRoot => false,
+            Self::None | Self::HalfTipChord | Self::Sissingh | Self::PrandtlThrust => {
+                return L::unit();
+            }
         };
-        let tip = (1.0 - radius_ratio) / radius_ratio;
-        let root = (radius_ratio - cutout) / cutout;
-        match self {
-            Self::Prandtl => factor_at(tip),
-            Self::PrandtlTipAndRoot => factor_at(tip) * factor_at(root),
-            Self::None | Self::HalfTipChord | Self::Sissingh | Self::PrandtlThrust => S::one(),
+        let sine = sin_inflow.abs();
+        let mut factor = L::unit();
+        // At the tip, and at the root: from the distance to the end of the blade over the radius of
+        // the inner of the two.
+        loop {
+            let f = L::real(distance * (0.5 * span.blades)) / sine;
+            // Infinite, with the sign of that 0, where no air passes through the disc.
+            let is_lossy = f.values().abs().is_below(NO_LOSS);
+            if is_lossy.any() {
+                let at_end = C(FRAC_2_PI) * (-f).exp().acos();
+                factor = L::select(is_lossy, factor * at_end, factor);
+            }
+            if is_last {
+                return factor;
+            }
+            is_last = true;
+            distance = (radius_ratio - span.cutout) / span.cutout;
         }
     }
 

@@ -3,8 +3,8 @@
 use super::{
     disc::Flap,
     evaluation::Evaluation,
-    loads::DiscLoads,
-    scalar::{C, Scalar},
+    inflow::DiscLoads,
+    numbers::{C, Scalar},
 };
 use core::f64::consts::PI;
 

@@ -1,6 +1,11 @@
 //! The memory in which a rotor computes.
 
-use super::{blade_loads::ElementLoads, rotor::Rotor, scalar::Scalar, work::Work};
+use super::{
+    blade_loads::ElementLoads,
+    numbers::{Scalar, Width},
+    rotor::Rotor,
+    work::Work,
+};
 
 /// Scratch memory for computations with one rotor at a time, in plain or dual numbers. It carries
 /// nothing from one computation to the next, except what they may cost in all.
@@ -12,6 +17,8 @@ pub struct Workspace<S = f64> {
     pub(crate) elements: Vec<ElementLoads<S>>,
     /// What computations in this memory may cost; without a bound by default.
     pub work: Work,
+    /// The lanes in which it computes: the widest by default. No answer depends on it.
+    pub width: Width,
 }
 
 impl<S: Scalar> Default for Workspace<S> {
@@ -21,6 +28,7 @@ impl<S: Scalar> Default for Workspace<S> {
             lifting_shares: Vec::new(),
             elements: Vec::new(),
             work: Work::default(),
+            width: Width::default(),
         }
     }
 }

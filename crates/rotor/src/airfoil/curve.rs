@@ -1,17 +1,10 @@
 //! One coefficient over the full circle of angles of attack.
 
-use crate::{
-    scalar::{C, Scalar},
-    text_file::{NoMemory, collect},
-};
+use crate::text_file::{NoMemory, collect};
 use core::f64::consts::PI;
 use thiserror::Error;
 
-/// Number of equal parts of the circle for which the first interval is kept, so that a look-up
-/// needs no search: half a degree each.
-const PARTS: usize = 720;
-
-/// Maximum number of points of a curve: `Curve::interval` counts them in 16 bits.
+/// Maximum number of points of a curve; no file needs more than a few hundred.
 const MAX_POINTS: usize = 1 << 16;
 
 /// Maximum of lift and drag coefficients, whatever their sign. No section comes near it: a flat
@@ -36,8 +29,6 @@ pub struct Curve {
     value: Vec<f64>,
     /// Slope of the interval that begins at each point but the last, finite, 1/rad.
     slope: Vec<f64>,
-    /// The interval in which each part of the circle begins.
-    interval: Vec<u16>,
     /// Angles of the first lift peak to either side of zero, rad.
     stall: (f64, f64),
 }
@@ -144,18 +135,11 @@ impl Curve {
         let value = collect(points.iter().map(|p| p.1), "the coefficients")?;
         let intervals = alpha.windows(2).zip(value.windows(2));
         let slope = collect(intervals.map(|(a, v)| slope(a, v)), "the slopes")?;
-        let last = alpha.len() - 2;
-        let interval = (0..PARTS).map(|part| {
-            let begin = -PI + 2.0 * PI * part as f64 / PARTS as f64;
-            let next = alpha.partition_point(|a| *a <= begin);
-            next.saturating_sub(1).min(last) as u16
-        });
         let stall = (
             -first_peak(points.iter().rev().map(|p| (-p.0, -p.1))).to_radians(),
             first_peak(points.iter().copied()).to_radians(),
         );
         Ok(Self {
-            interval: collect(interval, "the index of the angles")?,
             alpha,
             value,
             slope,
@@ -164,20 +148,19 @@ impl Curve {
     }
 
     /// The coefficient at an angle between -pi and pi, rad.
-    pub fn value<S: Scalar>(&self, alpha: S) -> S {
-        let x = alpha.value();
-        let part = ((x + PI) * (PARTS as f64 / (2.0 * PI))) as usize;
-        let mut i = usize::from(self.interval[part.min(PARTS - 1)]);
-        // Rounding may give the part before or behind.
-        while i > 0 && alpha.is_below(self.alpha[i]) {
-            i -= 1;
-        }
-        while i + 1 < self.slope.len() && !alpha.is_below(self.alpha[i + 1]) {
-            i += 1;
-        }
-        // The end of the interval is the last point, or a corner that is left downwards.
-        let near = if x >= self.alpha[i + 1] { i + 1 } else { i };
-        C(self.value[near]) + C(self.slope[i]) * (alpha - self.alpha[near])
+    pub fn value(&self, alpha: f64) -> f64 {
+        let after = self.alpha.partition_point(|a| *a <= alpha).max(1) - 1;
+        let slope = self.slope[after.min(self.slope.len() - 1)];
+        self.value[after] + slope * (alpha - self.alpha[after])
+    }
+
+    /// What a look-up needs of each point: its angle and value, the slope behind it, and the next
+    /// point's angle, which is infinite behind the last point.
+    pub fn rows(&self) -> impl Iterator<Item = [f64; 4]> {
+        let ends = self.alpha[1..].iter().chain([&f64::INFINITY]);
+        let slopes = self.slope.iter().chain(self.slope.last());
+        let points = self.alpha.iter().zip(&self.value).zip(slopes).zip(ends);
+        points.map(|(((alpha, value), slope), end)| [*alpha, *value, *slope, *end])
     }
 
     /// The lowest coefficient between two angles between -pi and pi, rad.

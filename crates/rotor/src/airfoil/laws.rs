@@ -33,7 +33,7 @@ use super::{
     layers::{Axis, Layers, LayersError},
     table::wrapped,
 };
-use crate::scalar::{C, Scalar};
+use crate::numbers::{C, Lanes, Scalar};
 use core::f64::consts::{FRAC_PI_2, PI};
 use thiserror::Error;
 
@@ -287,27 +287,37 @@ impl Laws {
         &self.layers
     }
 
-    /// Lift coefficient at any angle (rad).
-    pub fn lift<S: Scalar>(&self, line: Line, alpha: S, flow: Similarity<S>) -> S {
+    /// A quantity of the laws around the numbers of a flow, by the law and the lane.
+    #[inline(always)]
+    fn mixed<L: Lanes>(&self, flow: Similarity<L>, of_law: impl Fn(&Law, usize) -> L::One) -> L {
+        self.layers
+            .mixed(flow, |layer, lane| of_law(&self.law[layer], lane))
+    }
+
+    /// Lift coefficient at any angle (rad), by the line of each lane.
+    #[inline(always)]
+    pub fn lift<L: Lanes>(&self, line: impl Fn(usize) -> Line, alpha: L, flow: Similarity<L>) -> L {
         let alpha = wrapped(alpha);
-        self.layers.mixed(flow, |i| self.law[i].lift(line, alpha))
+        self.mixed(flow, |law, lane| law.lift(line(lane), alpha.lane(lane)))
     }
 
     /// Drag coefficient at any angle (rad).
-    pub fn drag<S: Scalar>(&self, alpha: S, flow: Similarity<S>) -> S {
+    #[inline(always)]
+    pub fn drag<L: Lanes>(&self, alpha: L, flow: Similarity<L>) -> L {
         let alpha = wrapped(alpha);
-        self.layers.mixed(flow, |i| self.law[i].drag(alpha))
+        self.mixed(flow, |law, lane| law.drag(alpha.lane(lane)))
     }
 
-    /// Slope of the line through the origin, 1/rad.
-    pub fn slope<S: Scalar>(&self, line: Line, flow: Similarity<S>) -> S {
-        self.layers
-            .mixed(flow, |i| S::constant(line.slope(&self.law[i])))
+    /// Slope of the line through the origin, 1/rad, by the line of each lane.
+    #[inline(always)]
+    pub fn slope<L: Lanes>(&self, line: impl Fn(usize) -> Line, flow: Similarity<L>) -> L {
+        self.mixed(flow, |law, lane| L::One::constant(line(lane).slope(law)))
     }
 
     /// Stall angle, > 0, rad.
-    pub fn stall<S: Scalar>(&self, flow: Similarity<S>) -> S {
-        self.layers.mixed(flow, |i| S::constant(self.law[i].stall))
+    #[inline(always)]
+    pub fn stall<L: Lanes>(&self, flow: Similarity<L>) -> L {
+        self.mixed(flow, |law, _| L::One::constant(law.stall))
     }
 }
 
@@ -337,7 +347,7 @@ mod tests {
     }
 
     fn lift(line: Line, alpha: f64, reynolds: f64) -> f64 {
-        laws().lift(line, alpha, flow(reynolds))
+        laws().lift(|_| line, alpha, flow(reynolds))
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::Similarity;
 use crate::{
-    scalar::Scalar,
+    numbers::{LANES, Lanes, Mask, Plain},
     text_file::{NoMemory, push},
 };
 use std::{fmt, ops::RangeInclusive};
@@ -135,7 +135,7 @@ impl Layers {
             return Err(LayersProblem::OutOfRange { axis, number });
         }
         let next = match axis {
-            Axis::Reynolds => Scalar::ln(number),
+            Axis::Reynolds => Lanes::ln(number),
             Axis::Mach => number,
         };
         if let Some((position, before)) = self.position.last().zip(self.number.last())
@@ -171,48 +171,100 @@ impl Layers {
         }
     }
 
-    /// The layer at or below the flow's number, and how far (0 to 1) the number lies towards the
-    /// next layer; none where a single layer holds. Outside the range the nearest layer holds.
-    fn find<S: Scalar>(&self, flow: Similarity<S>) -> (usize, Option<S>) {
-        let last = self.position.len() - 1;
-        if last == 0 {
-            return (0, None);
+    /// Where the numbers of a flow lie among the layers; nowhere if there is only one layer.
+    /// Outside the range the nearest layer holds.
+    #[inline(always)]
+    pub fn find<L: Lanes>(&self, flow: Similarity<L>) -> Option<Place<L>> {
+        if self.position.len() == 1 {
+            return None;
         }
         let number = match self.axis {
             Axis::Reynolds => flow.reynolds.at_least(1.0).ln(),
             Axis::Mach => flow.mach,
         };
-        // NaN has no place among the numbers; it comes from states that have diverged.
-        if number.value().is_nan() || !number.is_above(self.position[0]) {
-            return (0, None);
+        let last = self.position.len() - 1;
+        let value = number.values().store();
+        let mut layer = [0; LANES];
+        for lane in 0..L::COUNT {
+            // NaN has no place among the numbers; it comes from states that have diverged.
+            let next = self.position.partition_point(|p| *p <= value[lane]);
+            layer[lane] = next.saturating_sub(1);
         }
-        if !number.is_below(self.position[last]) {
-            return (last, None);
+        // A number at a layer that is about to fall below it.
+        let falls = number.below(self.positions(&layer));
+        for (lane, layer) in layer.iter_mut().enumerate().take(L::COUNT) {
+            *layer = layer.saturating_sub(usize::from(falls.lane(lane)));
         }
-        let upper = self.position.partition_point(|p| !number.is_below(*p));
-        let (p0, p1) = (self.position[upper - 1], self.position[upper]);
-        (upper - 1, Some((number - p0) / (p1 - p0)))
+        let mut next = layer;
+        for next in &mut next {
+            *next = (*next + 1).min(last);
+        }
+        let (low, high) = (self.positions(&layer), self.positions(&next));
+        let is_between = number.above(low) & low.below(high);
+        let weight = number.plus_real(-low).times(L::Real::unit() / (high - low));
+        Some(Place {
+            layer,
+            next,
+            weight: L::select(is_between, weight, L::nil()),
+        })
     }
 
-    /// A quantity of each layer, by its index, at the number of a flow: linear between layers, and
-    /// exact at a layer.
-    pub fn mixed<S: Scalar>(&self, flow: Similarity<S>, of_layer: impl Fn(usize) -> S) -> S {
-        let (layer, weight) = self.find(flow);
-        let lower = of_layer(layer);
-        match weight {
-            None => lower,
-            Some(weight) => lower + weight * (of_layer(layer + 1) - lower),
+    /// The positions of layers.
+    #[inline(always)]
+    fn positions<V: Plain>(&self, layer: &[usize; LANES]) -> V {
+        let mut positions = [0.0; LANES];
+        for lane in 0..V::COUNT {
+            positions[lane] = self.position[layer[lane]];
         }
+        V::load(&positions)
+    }
+
+    /// A quantity of each layer at the numbers of a flow, by the layer's index and the lane: linear
+    /// between layers, and exact at a layer.
+    #[inline(always)]
+    pub fn mixed<L: Lanes>(
+        &self,
+        flow: Similarity<L>,
+        of_layer: impl Fn(usize, usize) -> L::One,
+    ) -> L {
+        let Some(place) = self.find(flow) else {
+            return L::from_lanes(|lane| of_layer(0, lane));
+        };
+        let lower = L::from_lanes(|lane| of_layer(place.layer[lane], lane));
+        if !place.is_between() {
+            return lower;
+        }
+        let upper = L::from_lanes(|lane| of_layer(place.next[lane], lane));
+        lower + place.weight * (upper - lower)
+    }
+}
+
+/// Where the numbers of a flow lie among the layers.
+#[derive(Debug)]
+pub struct Place<L> {
+    /// The layer at or below each number.
+    pub layer: [usize; LANES],
+    /// The next layer.
+    pub next: [usize; LANES],
+    /// How far, 0 to 1, the number lies towards the next layer.
+    pub weight: L,
+}
+
+impl<L: Lanes> Place<L> {
+    /// Whether any number lies between two layers.
+    #[inline(always)]
+    pub fn is_between(&self) -> bool {
+        !self.weight.negligible(0.0).all()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use num_dual::Dual64;
+    use crate::numbers::Dual64;
 
     fn at(layers: &Layers, reynolds: f64, mach: f64) -> f64 {
-        layers.mixed(Similarity { reynolds, mach }, |i| [1.0, 3.0, 4.0][i])
+        layers.mixed(Similarity { reynolds, mach }, |i, _| [1.0, 3.0, 4.0][i])
     }
 
     #[test]
@@ -310,7 +362,8 @@ mod tests {
                 reynolds: Dual64::from_re(1e5),
                 mach: Dual64::new(mach, change),
             };
-            let mixed = layers.mixed(flow, |i| Dual64::from_re([1.0, 3.0, 4.0][i]));
+            let of_layer = |i: usize, _| Dual64::from_re([1.0, 3.0, 4.0][i]);
+            let mixed: Dual64 = layers.mixed(flow, of_layer);
             mixed.eps / change
         };
         for (mach, below, above) in [(0.1, 0.0, 10.0), (0.3, 10.0, 2.5), (0.7, 2.5, 0.0)] {

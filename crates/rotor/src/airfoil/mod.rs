@@ -12,6 +12,7 @@ mod formats;
 mod fuzz;
 mod laws;
 mod layers;
+mod lookup;
 mod polar;
 mod records;
 mod summary;
@@ -26,7 +27,7 @@ use summary::Summary;
 
 use super::{
     compressibility::Compressibility,
-    scalar::{C, Scalar},
+    numbers::{C, LANES, Lanes, Mask, PerLane, Plain, Portable, Scalar, in_lanes, per_lane},
     text_file::{self, TextFile},
 };
 use core::f64::consts::PI;
@@ -105,6 +106,37 @@ pub struct Similarity<S> {
     pub reynolds: S,
     /// Mach number, >= 0.
     pub mach: S,
+}
+
+impl<S: Scalar> Similarity<PerLane<S>> {
+    /// Those of a block in lanes.
+    #[inline(always)]
+    pub(crate) fn in_lanes<L: Lanes<One = S>>(&self) -> Similarity<L> {
+        Similarity {
+            reynolds: in_lanes(&self.reynolds),
+            mach: in_lanes(&self.mach),
+        }
+    }
+}
+
+impl<L: Lanes> Similarity<L> {
+    /// Those of the lanes.
+    #[inline(always)]
+    pub(crate) fn per_lane(&self) -> Similarity<PerLane<L::One>> {
+        Similarity {
+            reynolds: per_lane(self.reynolds),
+            mach: per_lane(self.mach),
+        }
+    }
+
+    /// Those of a lane.
+    #[inline(always)]
+    pub fn lane(&self, lane: usize) -> Similarity<L::One> {
+        Similarity {
+            reynolds: self.reynolds.lane(lane),
+            mach: self.mach.lane(lane),
+        }
+    }
 }
 
 /// An airfoil as read from a file. Angles in rad.
@@ -209,26 +241,51 @@ impl Airfoil {
     ///
     /// * `pitch`: of the blade element, rad; it counts for `Lift::SlopesByReynolds` only
     /// * `alpha`: angle of attack, rad, any value
-    pub fn lift_coefficient<S: Scalar>(
+    #[inline(always)]
+    pub fn lift_coefficient<L: Lanes>(
         &self,
         model: &SectionModel,
-        pitch: f64,
-        alpha: S,
-        flow: Similarity<S>,
-    ) -> S {
-        let lift = match model.lift {
-            Lift::TwoPi => C(2.0 * PI) * alpha.sin(),
-            Lift::Table | Lift::SlopesByReynolds => match &self.data {
-                Data::Tables { lift, .. } => lift.value(alpha, flow),
-                Data::Laws(laws) => laws.lift(model.line(pitch), alpha, flow),
-            },
+        pitch: L::Real,
+        alpha: L,
+        flow: Similarity<L>,
+    ) -> L {
+        let lift = match (&self.data, model.lift) {
+            (Data::Tables { lift, .. }, Lift::Table | Lift::SlopesByReynolds)
+                if lift.is_single() =>
+            {
+                lift.single(alpha)
+            }
+            _ => {
+                in_lanes(&self.any_lift(model, &pitch.store(), &per_lane(alpha), &flow.per_lane()))
+            }
         };
         self.rule(model).correct(lift, flow.mach)
     }
 
+    /// The lift coefficient of any data, without the compressibility rule.
+    #[inline(never)]
+    fn any_lift<S: Scalar>(
+        &self,
+        model: &SectionModel,
+        pitch: &[f64; LANES],
+        alpha: &PerLane<S>,
+        flow: &Similarity<PerLane<S>>,
+    ) -> PerLane<S> {
+        let flow = flow.in_lanes::<S::In<Portable>>();
+        let alpha: S::In<Portable> = in_lanes(alpha);
+        per_lane(match model.lift {
+            Lift::TwoPi => C(2.0 * PI) * alpha.sin(),
+            Lift::Table | Lift::SlopesByReynolds => match &self.data {
+                Data::Tables { lift, .. } => lift.value(alpha, flow),
+                Data::Laws(laws) => laws.lift(|lane| model.line(pitch[lane]), alpha, flow),
+            },
+        })
+    }
+
     /// Factor by which the compressibility rule raises the incompressible lift coefficient `lift`
     /// at a Mach number (>= 0).
-    pub fn compressibility<S: Scalar>(&self, model: &SectionModel, lift: S, mach: S) -> S {
+    #[inline(always)]
+    pub fn compressibility<S: Lanes>(&self, model: &SectionModel, lift: S, mach: S) -> S {
         C(1.0) / self.rule(model).divisor(lift, mach)
     }
 
@@ -255,47 +312,73 @@ impl Airfoil {
     /// layer; there only a part of it is scaled, as large as the drag at the stall angle. Two kinds
     /// of drag stay as they are: that of bodies without lift, which is pressure drag, and that of
     /// tables by Mach number, which know no Reynolds number.
-    pub fn drag_coefficient<S: Scalar>(
+    #[inline(always)]
+    pub fn drag_coefficient<L: Lanes>(
         &self,
         model: &SectionModel,
-        alpha: S,
-        flow: Similarity<S>,
-    ) -> S {
+        alpha: L,
+        flow: Similarity<L>,
+    ) -> L {
         let drag = self.table_drag(alpha, flow);
         let Some((lowest, highest)) = self.summary.reynolds else {
             return drag;
         };
         let reynolds = flow.reynolds.at_least(MIN_CORRECTED_REYNOLDS);
+        let is_outside = reynolds.is_below(lowest) | reynolds.is_above(highest);
         let is_off = model.drag_reynolds_exponent == 0.0 || !self.summary.lifts;
-        if is_off || !(reynolds.is_below(lowest) || reynolds.is_above(highest)) {
+        if is_off || !is_outside.any() {
             return drag;
         }
-        let ratio = C(reynolds.value().clamp(lowest, highest)) / reynolds;
+        let nearest = reynolds.values().at_least(lowest).at_most(highest);
+        let ratio = L::real(nearest) / reynolds;
         let factor = (C(model.drag_reynolds_exponent) * ratio.ln()).exp();
-        if drag.value() < self.summary.drag_below_stall {
-            return drag + drag * (factor - 1.0);
-        }
-        let (negative, positive) = self.stall_angles(flow);
-        let stall = if wrapped(alpha).is_below(0.0) {
-            negative
+        let is_low = drag.values().is_below(self.summary.drag_below_stall);
+        let scaled = if is_low.all() {
+            drag
         } else {
-            positive
+            L::from_lanes(|lane| {
+                let flow = flow.lane(lane);
+                self.attached_drag(drag.lane(lane), alpha.lane(lane), flow)
+            })
         };
+        L::select(is_outside, drag + scaled * (factor - 1.0), drag)
+    }
+
+    /// The part of the file's drag coefficient `drag` that depends on the boundary layer: not more
+    /// than the drag at the stall angle.
+    #[inline(never)]
+    fn attached_drag<S: Scalar>(&self, drag: S, alpha: S, flow: Similarity<S>) -> S {
+        let (negative, positive) = self.stall_angles(flow);
+        let is_negative = wrapped(alpha).is_below(0.0);
+        let stall = if is_negative { negative } else { positive };
         let at_stall = self.table_drag(stall, flow);
-        let scaled = if (drag - at_stall).is_above(0.0) {
+        if (drag - at_stall).is_above(0.0) {
             at_stall
         } else {
             drag
-        };
-        drag + scaled * (factor - 1.0)
+        }
     }
 
     /// The drag coefficient of the file, without the correction.
-    fn table_drag<S: Scalar>(&self, alpha: S, flow: Similarity<S>) -> S {
+    #[inline(always)]
+    fn table_drag<L: Lanes>(&self, alpha: L, flow: Similarity<L>) -> L {
         match &self.data {
+            Data::Tables { drag, .. } if drag.is_single() => drag.single(alpha),
+            Data::Tables { .. } | Data::Laws(_) => {
+                in_lanes(&self.any_drag(&per_lane(alpha), &flow.per_lane()))
+            }
+        }
+    }
+
+    /// The drag coefficient of any data, without the correction.
+    #[inline(never)]
+    fn any_drag<S: Scalar>(&self, alpha: &PerLane<S>, flow: &Similarity<PerLane<S>>) -> PerLane<S> {
+        let flow = flow.in_lanes::<S::In<Portable>>();
+        let alpha: S::In<Portable> = in_lanes(alpha);
+        per_lane(match &self.data {
             Data::Tables { drag, .. } => drag.value(alpha, flow),
             Data::Laws(laws) => laws.drag(alpha, flow),
-        }
+        })
     }
 
     /// Whether the section has lift at any angle.
@@ -308,35 +391,52 @@ impl Airfoil {
     /// For a table it is the line through the lift at -3 and +3 deg of angle of attack (thesis
     /// section 3.5.1, line A). For laws it is line A, or with `Lift::SlopesByReynolds` line A or B
     /// by the `pitch` of the element, rad.
-    pub fn lift_line<S: Scalar>(
+    #[inline(always)]
+    pub fn lift_line<L: Lanes>(
         &self,
         model: &SectionModel,
-        pitch: f64,
-        flow: Similarity<S>,
-    ) -> (S, S) {
-        let zero = S::zero();
-        let lift = match model.lift {
-            Lift::TwoPi => return (S::constant(2.0 * PI), zero),
-            Lift::Table | Lift::SlopesByReynolds => match &self.data {
-                Data::Laws(laws) => return (laws.slope(model.line(pitch), flow), zero),
-                Data::Tables { lift, .. } => lift,
-            },
-        };
-        let edge = 3.0_f64.to_radians();
-        let at = |alpha: f64| lift.value(S::constant(alpha), flow);
-        let (low, high) = (at(-edge), at(edge));
-        let slope = (high - low) / (2.0 * edge);
-        if slope.value() == 0.0 {
-            return (zero, zero);
-        }
-        (slope, C(-0.5) * (high + low) / slope)
+        pitch: L::Real,
+        flow: Similarity<L>,
+    ) -> (L, L) {
+        let (slope, zero_lift) = self.any_lift_line(model, &pitch.store(), &flow.per_lane());
+        (in_lanes(&slope), in_lanes(&zero_lift))
     }
 
-    /// Whether the section is clear of stall at an angle of attack (rad, between -pi and pi),
+    #[inline(never)]
+    fn any_lift_line<S: Scalar>(
+        &self,
+        model: &SectionModel,
+        pitch: &[f64; LANES],
+        flow: &Similarity<PerLane<S>>,
+    ) -> (PerLane<S>, PerLane<S>) {
+        let flow = flow.in_lanes::<S::In<Portable>>();
+        let zero = S::In::<Portable>::nil();
+        let lift = match (&self.data, model.lift) {
+            (_, Lift::TwoPi) => return ([S::constant(2.0 * PI); LANES], per_lane(zero)),
+            (Data::Laws(laws), _) => {
+                let slope = laws.slope(|lane| model.line(pitch[lane]), flow);
+                return (per_lane(slope), per_lane(zero));
+            }
+            (Data::Tables { lift, .. }, _) => lift,
+        };
+        let edge = 3.0_f64.to_radians();
+        let at = |alpha: f64| lift.value(S::In::<Portable>::constant(alpha), flow);
+        let (low, high) = (at(-edge), at(edge));
+        let slope = (high - low) / (2.0 * edge);
+        let zero_lift = C(-0.5) * (high + low) / slope;
+        let is_flat = slope.values().negligible(0.0);
+        (
+            per_lane(slope),
+            per_lane(Lanes::select(is_flat, zero, zero_lift)),
+        )
+    }
+
+    /// Where the section is clear of stall at an angle of attack (rad, between -pi and pi),
     /// whatever the Reynolds and Mach number. `stall_angles` decides where it is not.
-    pub fn is_unstalled(&self, alpha: f64) -> bool {
+    #[inline(always)]
+    pub fn is_unstalled<V: Plain>(&self, alpha: V) -> V::Mask {
         let (negative, positive) = self.summary.unstalled;
-        alpha >= negative && alpha <= positive
+        !alpha.is_below(negative) & !alpha.is_above(positive)
     }
 
     /// Angles of attack (negative, positive; rad) at which the lift reaches its first peak; -pi
@@ -365,7 +465,7 @@ impl SectionModel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use num_dual::Dual64;
+    use crate::numbers::Dual64;
 
     fn drag(alpha_deg: f64, reynolds: f64, exponent: f64) -> f64 {
         let text = "polar 1\nreynolds 1e5\n-180 0 0.02\n-10 -1 0.04\n0 0 0.01\n10 1 0.04\n90 0 2\n180 0 0.02\n";

@@ -54,8 +54,8 @@ impl Summary {
 #[cfg(test)]
 mod tests {
     use super::super::{Airfoil, Lift, SectionModel, Similarity, polar, wrapped};
-    use crate::{compressibility::Compressibility, scalar::Scalar};
-    use num_dual::Dual64;
+    use crate::numbers::Dual64;
+    use crate::{compressibility::Compressibility, numbers::Scalar};
 
     /// Two layers whose stall angles and drag differ, and one that stalls at a point with the least
     /// drag of all.

@@ -4,9 +4,10 @@ use super::{
     Similarity,
     curve::{Coefficient, Curve, CurveError},
     layers::Layers,
+    lookup::Lookup,
 };
 use crate::{
-    scalar::Scalar,
+    numbers::{LANES, Lanes, Mask, Scalar},
     text_file::{collect, push},
 };
 use core::f64::consts::PI;
@@ -19,6 +20,7 @@ use thiserror::Error;
 pub struct Table {
     layers: Layers,
     curve: Vec<Curve>,
+    lookup: Lookup,
 }
 
 /// Why points do not make a table.
@@ -51,9 +53,14 @@ impl Table {
                 .and_then(|curve| Ok(push(&mut curves, curve, "the curves")?))
                 .map_err(|error| TableError { layer, error })?;
         }
+        let lookup = Lookup::try_new(&curves).map_err(|error| TableError {
+            layer: 0,
+            error: error.into(),
+        })?;
         Ok(Self {
             layers,
             curve: curves,
+            lookup,
         })
     }
 
@@ -72,30 +79,53 @@ impl Table {
         self.curve.iter().any(Curve::is_anywhere)
     }
 
+    /// Whether there is only one layer.
+    #[inline(always)]
+    pub fn is_single(&self) -> bool {
+        self.curve.len() == 1
+    }
+
+    /// The coefficient in the first layer at an angle of attack, rad, any value.
+    #[inline(always)]
+    pub fn single<L: Lanes>(&self, alpha: L) -> L {
+        self.lookup.value(&[0; LANES], wrapped(alpha))
+    }
+
     /// The coefficient at an angle of attack, rad, any value.
-    pub fn value<S: Scalar>(&self, alpha: S, flow: Similarity<S>) -> S {
+    #[inline(always)]
+    pub fn value<L: Lanes>(&self, alpha: L, flow: Similarity<L>) -> L {
         let alpha = wrapped(alpha);
-        self.layers.mixed(flow, |i| self.curve[i].value(alpha))
+        let Some(place) = self.layers.find(flow) else {
+            return self.lookup.value(&[0; LANES], alpha);
+        };
+        let lower = self.lookup.value(&place.layer, alpha);
+        if !place.is_between() {
+            return lower;
+        }
+        lower + place.weight * (self.lookup.value(&place.next, alpha) - lower)
     }
 
     /// Angles of attack (negative, positive) at which the lift reaches its first peak; -pi and pi
     /// without lift. rad.
     pub fn stall_angles<S: Scalar>(&self, flow: Similarity<S>) -> (S, S) {
         let mixed = |side: fn((f64, f64)) -> f64| {
-            self.layers
-                .mixed(flow, |i| S::constant(side(self.curve[i].stall_angles())))
+            let of_layer = |layer: usize| S::constant(side(self.curve[layer].stall_angles()));
+            self.layers.mixed(flow, |layer, _| of_layer(layer))
         };
         (mixed(|stall| stall.0), mixed(|stall| stall.1))
     }
 }
 
 /// The same angle between -pi and pi. rad.
-pub fn wrapped<S: Scalar>(alpha: S) -> S {
-    if !(alpha.is_below(-PI) || alpha.is_above(PI)) {
+#[inline(always)]
+pub fn wrapped<L: Lanes>(alpha: L) -> L {
+    let is_outside = alpha.is_below(-PI) | alpha.is_above(PI);
+    if !is_outside.any() {
         return alpha;
     }
-    let turns = libm::round(alpha.value() / (2.0 * PI));
-    (alpha - turns * 2.0 * PI).at_least(-PI).at_most(PI)
+    let turns = (alpha.values() / (2.0 * PI)).each(libm::round);
+    let turned = alpha.plus_real(-(turns * 2.0 * PI));
+    L::select(is_outside, turned.at_least(-PI).at_most(PI), alpha)
 }
 
 #[cfg(test)]

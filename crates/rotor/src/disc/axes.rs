@@ -1,6 +1,6 @@
 //! Wind axes, and azimuths in them.
 
-use crate::scalar::Scalar;
+use crate::numbers::Scalar;
 
 /// The hub frame rotated about the shaft so that x points into the edgewise flow: cosine and sine
 /// of the angle.

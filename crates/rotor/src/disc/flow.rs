@@ -1,7 +1,7 @@
 //! The motion of the disc through the air, and the flow at a blade's section.
 
 use super::{Azimuth, BladePosition};
-use crate::scalar::Scalar;
+use crate::numbers::{Lanes, Mask, Scalar};
 
 /// The motion of the disc through the air in wind axes, without induced velocity. SI units, rad.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -26,25 +26,51 @@ pub struct DiscFlow<S = f64> {
     pub hinge: f64,
 }
 
+/// The flow at a blade, without induced velocity, and the blade's position: what its sections
+/// share. SI units, rad.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BladeFlow<S = f64> {
+    /// In wind axes.
+    pub azimuth: Azimuth<S>,
+    /// Sine of the flap angle.
+    pub flap_sin: S,
+    /// Cosine of the flap angle.
+    pub flap_cos: S,
+    /// Rate of the flap angle, rad/s.
+    flap_rate: S,
+    /// Change of pitch by cyclic control and flapping, rad.
+    pitch: S,
+    /// Rotor speed against the air, rad/s.
+    rotation: S,
+    /// The disc's speed along its shaft, m/s.
+    climb: S,
+    /// The edgewise flow against the blade's motion, and from the hub to the tip, m/s.
+    edgewise: (S, S),
+    /// Angular velocity of the hub about e_r and e_t, rad/s.
+    hub_rates: (S, S),
+    /// Radius of the flapping hinge, m.
+    hinge: f64,
+}
+
 /// The flow at a blade's section, without induced velocity, and the section's pitch and position.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SectionFlow<S = f64> {
+pub struct SectionFlow<L: Lanes = f64> {
     /// Change of pitch by cyclic control and flapping, rad.
-    pub pitch: S,
+    pub pitch: L,
     /// U_T: against the motion of the blade, m/s.
-    pub in_plane: S,
+    pub in_plane: L,
     /// U_P: against n, down through the disc, m/s.
-    pub through: S,
+    pub through: L,
     /// Sine of the section's flap angle: 0 inboard of the hinge.
-    pub flap_sin: S,
+    pub flap_sin: L,
     /// Cosine of the section's flap angle.
-    pub flap_cos: S,
+    pub flap_cos: L,
     /// s, m: distance from the hinge, 0 inboard of it.
-    pub outboard: f64,
+    pub outboard: L::Real,
     /// X, m: distance from the shaft.
-    pub out: S,
+    pub out: L,
     /// Z, m: height above the plane of the hinges.
-    pub up: S,
+    pub up: L,
 }
 
 impl<S: Scalar> DiscFlow<S> {
@@ -77,29 +103,54 @@ impl<S: Scalar> DiscFlow<S> {
         )
     }
 
-    /// The flow at the section at `radius` (m, along the blade): thesis eqs. (101) and (102), with
+    /// The flow at a blade.
+    pub fn at_blade(&self, position: &BladePosition<S>) -> BladeFlow<S> {
+        let Azimuth { sin, cos } = position.azimuth;
+        BladeFlow {
+            azimuth: position.azimuth,
+            flap_sin: position.flap_sin,
+            flap_cos: position.flap_cos,
+            flap_rate: position.flap.rate,
+            pitch: position.pitch - self.cyclic_cos * cos - self.cyclic_sin * sin,
+            rotation: self.rotation,
+            climb: self.climb,
+            edgewise: (self.edgewise * sin, self.edgewise * cos),
+            hub_rates: self.hub_rates(position.azimuth),
+            hinge: self.hinge,
+        }
+    }
+}
+
+impl<S: Scalar> BladeFlow<S> {
+    /// The flow at the sections at `radius` (m, along the blade): thesis eqs. (101) and (102), with
     /// the angular velocity of the hub and without small angles. U_T and U_P are the components
     /// along e_t and n of the section's velocity V + w x (X e_r + Z e_z) + beta' s n, because the
     /// air comes from where the section moves to. U_R of eq. (103), along the blade, has no effect
     /// on a section (independence principle) and is left out; so is the effect of sideslip on drag
     /// and stall.
-    pub fn at_section(&self, radius: f64, position: &BladePosition<S>) -> SectionFlow<S> {
-        let Azimuth { sin, cos } = position.azimuth;
-        let outboard = (radius - self.hinge).max(0.0);
-        let (flap_sin, flap_cos) = if outboard > 0.0 {
-            (position.flap_sin, position.flap_cos)
-        } else {
-            (S::zero(), S::one())
-        };
+    #[inline(always)]
+    pub fn at_section<L: Lanes<One = S>>(&self, radius: L::Real) -> SectionFlow<L> {
+        let outboard = (radius - self.hinge).at_least(0.0);
         let inboard = radius - outboard;
-        let (out, up) = (flap_cos * outboard + inboard, flap_sin * outboard);
-        let (radial_rate, tangential_rate) = self.hub_rates(position.azimuth);
+        let is_outboard = outboard.is_above(0.0);
+        let (mut flap_sin, mut flap_cos) = (L::splat(self.flap_sin), L::splat(self.flap_cos));
+        if !is_outboard.all() {
+            flap_sin = L::select(is_outboard, flap_sin, L::nil());
+            flap_cos = L::select(is_outboard, flap_cos, L::unit());
+        }
+        let (out, up) = (
+            flap_cos.times(outboard).plus_real(inboard),
+            flap_sin.times(outboard),
+        );
+        let (radial_rate, tangential_rate) = self.hub_rates;
+        let lever = flap_cos.times(inboard).plus_real(outboard);
         SectionFlow {
-            pitch: position.pitch - self.cyclic_cos * cos - self.cyclic_sin * sin,
-            in_plane: self.rotation * out + self.edgewise * sin - radial_rate * up,
-            through: flap_cos * self.climb + flap_sin * self.edgewise * cos
-                - tangential_rate * (flap_cos * inboard + outboard)
-                + position.flap.rate * outboard,
+            pitch: L::splat(self.pitch),
+            in_plane: L::splat(self.rotation) * out + L::splat(self.edgewise.0)
+                - L::splat(radial_rate) * up,
+            through: flap_cos * L::splat(self.climb) + flap_sin * L::splat(self.edgewise.1)
+                - L::splat(tangential_rate) * lever
+                + L::splat(self.flap_rate).times(outboard),
             flap_sin,
             flap_cos,
             outboard,

@@ -15,5 +15,5 @@ mod flow;
 mod position;
 
 pub use axes::{Azimuth, WindAxes};
-pub use flow::{DiscFlow, SectionFlow};
-pub use position::{AZIMUTHS, BladePosition, BladePositions, Flap, evenly_spaced};
+pub use flow::{BladeFlow, DiscFlow, SectionFlow};
+pub use position::{AZIMUTHS, BladePosition, Flap, OfPositions, evenly_spaced};

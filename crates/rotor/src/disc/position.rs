@@ -1,7 +1,8 @@
 //! Blade positions: azimuth and flapping.
 
 use super::Azimuth;
-use crate::scalar::Scalar;
+use crate::numbers::Scalar;
+use arrayvec::ArrayVec;
 use core::f64::consts::PI;
 
 /// Number of azimuths over which a disc without axial symmetry is averaged. All harmonics of the
@@ -57,37 +58,12 @@ impl<S: Scalar> BladePosition<S> {
     }
 }
 
-/// The positions of the blades, or those over which the disc is averaged: 1 to `AZIMUTHS`.
-#[derive(Debug, Clone, Copy)]
-pub struct BladePositions<S = f64> {
-    all: [BladePosition<S>; AZIMUTHS],
-    count: usize,
-}
+/// Something for each of the positions of the blades, or of those over which the disc is averaged:
+/// 1 to `AZIMUTHS`.
+pub type OfPositions<T> = ArrayVec<T, AZIMUTHS>;
 
 // A rotor of the maximum number of blades must fit in.
 const _: () = assert!(crate::geometry::MAX_BLADES as usize <= AZIMUTHS);
-
-impl<S: Scalar> BladePositions<S> {
-    /// The first `AZIMUTHS` positions; a rotor has no more blades than that.
-    pub fn new(positions: impl Iterator<Item = BladePosition<S>>) -> Self {
-        let unused = BladePosition::new(Azimuth::any(), Flap::rigid(0.0), S::zero());
-        let mut all = [unused; AZIMUTHS];
-        let mut count = 0;
-        for (slot, position) in all.iter_mut().zip(positions) {
-            *slot = position;
-            count += 1;
-        }
-        Self { all, count }
-    }
-}
-
-impl<S> std::ops::Deref for BladePositions<S> {
-    type Target = [BladePosition<S>];
-
-    fn deref(&self) -> &[BladePosition<S>] {
-        &self.all[..self.count]
-    }
-}
 
 /// Azimuths evenly around the disc, offset by half a step so that none lies exactly where the flow
 /// reverses.

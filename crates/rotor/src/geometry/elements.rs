@@ -1,6 +1,7 @@
 //! The blade cut into elements: one array for each quantity, from root to tip.
 
 use super::Geometry;
+use crate::numbers::LANES;
 use core::f64::consts::PI;
 
 /// Twist that the elements around a station may miss, rad.
@@ -39,6 +40,36 @@ pub struct Elements {
     pub outer_airfoil: Vec<usize>,
     /// Share of the outer airfoil in the section's coefficients, 0 to 1.
     pub outer_share: Vec<f64>,
+    /// The same elements in blocks that are computed side by side.
+    pub blocks: Vec<Block>,
+}
+
+/// Neighbouring elements, one in each lane. The lanes that the last block has too many repeat the
+/// blade's last element, but do not count.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Block {
+    /// Index of the first element.
+    pub first: usize,
+    /// Number of elements, 1 to `LANES`.
+    pub count: usize,
+    /// 1 for lanes that count, else 0.
+    pub counts: [f64; LANES],
+    /// Radius of the element's middle, m.
+    pub radius: [f64; LANES],
+    /// Mean chord, m.
+    pub chord: [f64; LANES],
+    /// Pitch of the section less the collective, rad.
+    pub twist: [f64; LANES],
+    /// The airfoils, by their index in `Geometry::airfoils`, with their shares in each lane, whose
+    /// sum is 1.
+    pub airfoils: Vec<(usize, [f64; LANES])>,
+}
+
+impl Block {
+    /// The element of a lane, by its index.
+    pub fn element(&self, lane: usize) -> usize {
+        self.first + lane.min(self.count - 1)
+    }
 }
 
 impl Elements {
@@ -55,6 +86,7 @@ impl Elements {
             inner_airfoil: Vec::with_capacity(count),
             outer_airfoil: Vec::with_capacity(count),
             outer_share: Vec::with_capacity(count),
+            blocks: Vec::new(),
         };
         for i in 0..count {
             let middle = cutout + step * (i as f64 + 0.5);
@@ -68,7 +100,45 @@ impl Elements {
             elements.outer_airfoil.push(outer.airfoil);
             elements.outer_share.push(share);
         }
+        let firsts = (0..count).step_by(LANES);
+        elements.blocks = firsts.map(|first| elements.block(first)).collect();
         elements
+    }
+
+    /// The block that begins at an element.
+    fn block(&self, first: usize) -> Block {
+        let count = LANES.min(self.len() - first);
+        let element = |lane: usize| first + lane.min(count - 1);
+        let of_lanes = |values: &[f64]| core::array::from_fn(|lane| values[element(lane)]);
+        let mut airfoils: Vec<(usize, [f64; LANES])> = Vec::new();
+        for lane in 0..LANES {
+            let i = element(lane);
+            let share = self.outer_share[i];
+            for (airfoil, share) in [
+                (self.inner_airfoil[i], 1.0 - share),
+                (self.outer_airfoil[i], share),
+            ] {
+                let known = airfoils.iter_mut().find(|(known, _)| *known == airfoil);
+                match known {
+                    Some((_, shares)) => shares[lane] += share,
+                    None if share > 0.0 => {
+                        let mut shares = [0.0; LANES];
+                        shares[lane] = share;
+                        airfoils.push((airfoil, shares));
+                    }
+                    None => {}
+                }
+            }
+        }
+        Block {
+            first,
+            count,
+            counts: core::array::from_fn(|lane| f64::from(u8::from(lane < count))),
+            radius: of_lanes(&self.radius),
+            chord: of_lanes(&self.chord),
+            twist: of_lanes(&self.twist),
+            airfoils,
+        }
     }
 
     /// Whether an airfoil, by its index in `Geometry::airfoils`, has a share in an element.

@@ -4,7 +4,7 @@ mod elements;
 mod file;
 mod inertia;
 
-pub use elements::{Elements, Missed};
+pub use elements::{Block, Elements, Missed};
 pub use file::RotorFileError;
 pub use inertia::{BladeInertia, lock_number};
 

@@ -80,15 +80,16 @@
 
 use super::{
     Disc, Momentum,
+    closed_form::through_flow,
     linear::{Coefficients, Skew},
 };
 use crate::{
-    disc::{Azimuth, BladePosition, DiscFlow},
+    disc::{Azimuth, BladeFlow, DiscFlow},
     element::Element,
+    geometry::Block,
     induced::Induced,
+    numbers::{C, Dual, Equation, Lanes, Mask, Plain, Portable, Scalar, converted},
     root::{End, RootError, bracketed},
-    scalar::{C, Scalar},
-    sweep::{InducedAt, Sweep},
 };
 use core::f64::consts::FRAC_PI_2;
 
@@ -99,191 +100,381 @@ const TOLERANCE: f64 = 1e-14;
 /// rad.
 const FAR_END: f64 = 1e-12;
 
+/// Newton's method has found the inflow angle where its last step is at most this, rad: what is
+/// left is about the square of it, or a few percent of it if a corner of the table lies in between.
+const LAST_STEP: f64 = 1e-8;
+
+/// Bound on Newton's steps; three are usual.
+const MAX_STEPS: u32 = 6;
+
+/// Lift slope from which Newton's method starts, 1/rad: that of thin sections.
+const FIRST_SLOPE: f64 = 5.9;
+
 /// The mean of the undisturbed flow around the annulus: speed U and angle phi0.
-#[derive(Clone, Copy)]
-struct Undisturbed<S> {
-    speed: S,
-    angle: S,
+#[derive(Debug, Clone, Copy)]
+struct Undisturbed<L> {
+    speed: L,
+    angle: L,
+    /// Sine of phi0.
+    sin: L,
+    /// Cosine of phi0.
+    cos: L,
 }
 
-/// The induced velocity in an annulus, m/s.
+/// The induced velocity in annuli side by side, m/s.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct AnnulusInflow<S = f64> {
+pub struct AnnulusInflow<L = f64> {
     /// At the blades, averaged over the azimuth.
-    pub induced: Induced<S>,
+    pub induced: Induced<L>,
     /// Its growth towards psi = 0 and 90 deg at this radius, as a part of the average.
-    pub skew: Coefficients<S>,
+    pub skew: Coefficients<L>,
     /// Mean of the axial component around the annulus.
-    pub mean_axial: S,
+    pub mean_axial: L,
 }
 
-impl<S: Scalar> AnnulusInflow<S> {
+impl<L: Lanes> AnnulusInflow<L> {
     /// No induced velocity.
+    #[inline(always)]
     pub fn zero() -> Self {
         Self {
-            induced: Induced::axial(S::zero()),
-            skew: Coefficients::zero(),
-            mean_axial: S::zero(),
+            induced: Induced::axial(L::nil()),
+            skew: Coefficients {
+                kx: L::nil(),
+                ky: L::nil(),
+            },
+            mean_axial: L::nil(),
         }
     }
 
     /// At a blade at an azimuth.
-    pub fn at(&self, azimuth: Azimuth<S>) -> Induced<S> {
-        let skew = &self.skew;
-        let growth = skew.kx * azimuth.cos + skew.ky * azimuth.sin;
+    #[inline(always)]
+    pub fn at(&self, azimuth: Azimuth<L::One>) -> Induced<L> {
+        let (cos, sin) = (L::splat(azimuth.cos), L::splat(azimuth.sin));
+        let growth = self.skew.kx * cos + self.skew.ky * sin;
         self.induced.scaled(C(1.0) + growth)
+    }
+
+    /// The same numbers in other lanes.
+    #[inline(always)]
+    fn converted<M: Lanes<One = L::One>>(&self) -> AnnulusInflow<M> {
+        AnnulusInflow {
+            induced: Induced {
+                axial: converted(self.induced.axial),
+                swirl: converted(self.induced.swirl),
+            },
+            skew: Coefficients {
+                kx: converted(self.skew.kx),
+                ky: converted(self.skew.ky),
+            },
+            mean_axial: converted(self.mean_axial),
+        }
     }
 }
 
 /// The residual R(phi) where all azimuths are alike and momentum theory holds, dimensionless.
-fn axial_residual<S: Scalar>(
-    element: &Element<S>,
-    undisturbed: Undisturbed<S>,
-    inflow_angle: S,
-) -> S {
-    element.work.count(1);
-    let sin_inflow = inflow_angle.sin();
-    let induced_angle = inflow_angle - undisturbed.angle;
-    let across = induced_angle.cos();
-    let factor = element.tip_loss_factor(sin_inflow);
-    let lift = element.lift_coefficient(-inflow_angle + element.pitch, across * undisturbed.speed);
-    C(4.0) * (factor * sin_inflow.abs() * induced_angle.sin()) - lift * across * element.solidity()
+struct AxialBalance<'a, L: Lanes> {
+    element: &'a Element<'a, L>,
+    undisturbed: Undisturbed<L>,
+}
+
+impl<L: Lanes> Equation<L> for AxialBalance<'_, L> {
+    #[inline(always)]
+    fn residual(&self, inflow_angle: L) -> L {
+        let element = self.element;
+        element.count_work();
+        let Undisturbed { sin, cos, .. } = self.undisturbed;
+        let (sin_inflow, cos_inflow) = inflow_angle.sin_cos();
+        // Sine and cosine of phi - phi0.
+        let sin_induced = sin_inflow * cos - cos_inflow * sin;
+        let across = cos_inflow * cos + sin_inflow * sin;
+        let factor = element.tip_loss_factor(sin_inflow);
+        let speed = across * self.undisturbed.speed;
+        let lift = element.lift_coefficient(element.pitch - inflow_angle, speed);
+        C(4.0) * (factor * sin_inflow.abs() * sin_induced)
+            - (lift * across).times(element.solidity())
+    }
 }
 
 /// The residual R(phi) of the mean over blade positions, dimensionless.
-fn mean_residual<S: Scalar>(
-    element: &Element<S>,
-    flow: &DiscFlow<S>,
-    positions: &[BladePosition<S>],
-    momentum: &Momentum<S>,
-    undisturbed: Undisturbed<S>,
-    inflow_angle: S,
-) -> S {
-    let far = induced(undisturbed, inflow_angle);
-    let inflow = AnnulusInflow {
-        induced: momentum.at_the_blades(flow.edgewise, far.axial, far),
-        skew: skew(element, flow, momentum, far.axial),
-        ..AnnulusInflow::zero()
-    };
-    let (sin_inflow, cos_inflow) = (inflow_angle.sin(), inflow_angle.cos());
-    let speed = undisturbed.speed;
-    let mut sum = S::zero();
-    for position in positions {
-        let section = flow.at_section(element.radius, position);
-        let induced = inflow.at(position.azimuth);
-        // In units of U: its square can overflow.
-        let (in_plane, through) = (
-            (section.in_plane - induced.swirl) / speed,
-            (section.through + section.flap_cos * induced.axial) / speed,
-        );
-        let square = in_plane * in_plane + through * through;
-        let local_speed = square.sqrt();
-        let alpha = element.pitch + section.pitch - through.atan2(in_plane);
-        // W_psi^2 cos(phi_psi - phi) = W_psi (W_psi cos phi_psi cos phi + W_psi sin phi_psi sin
-        // phi); the first term is perpendicular to the flapped blade.
-        let axial = section.flap_cos * in_plane * cos_inflow;
-        let projected = local_speed * (axial + through * sin_inflow);
-        sum += element.lift_coefficient(alpha, local_speed * speed) * projected;
+struct MeanBalance<'a, L: Lanes> {
+    element: &'a Element<'a, L>,
+    flow: &'a DiscFlow<L::One>,
+    blades: &'a [BladeFlow<L::One>],
+    momentum: &'a Momentum<L::One>,
+    undisturbed: Undisturbed<L>,
+}
+
+impl<L: Lanes> Equation<L> for MeanBalance<'_, L> {
+    fn residual(&self, inflow_angle: L) -> L {
+        let Self {
+            element,
+            flow,
+            momentum,
+            undisturbed,
+            ..
+        } = self;
+        let (sin_inflow, cos_inflow) = inflow_angle.sin_cos();
+        let induced_part = (inflow_angle - undisturbed.angle).sin();
+        let magnitude = undisturbed.speed * induced_part;
+        let far = Induced {
+            axial: magnitude * cos_inflow,
+            swirl: magnitude * sin_inflow,
+        };
+        let inflow = AnnulusInflow {
+            induced: momentum.at_the_annuli(flow.edgewise, far),
+            skew: skew(element, flow, momentum, far.axial),
+            ..AnnulusInflow::zero()
+        };
+        let speed = undisturbed.speed;
+        let mut sum = L::nil();
+        for blade in self.blades {
+            let section = blade.at_section::<L>(element.radius);
+            let induced = inflow.at(blade.azimuth);
+            // In units of U: its square can overflow.
+            let (in_plane, through) = (
+                (section.in_plane - induced.swirl) / speed,
+                (section.through + section.flap_cos * induced.axial) / speed,
+            );
+            let local_speed = in_plane.length(through);
+            let alpha = element.pitch + section.pitch - through.atan2(in_plane);
+            // W_psi^2 cos(phi_psi - phi) = W_psi (W_psi cos phi_psi cos phi + W_psi sin phi_psi
+            // sin phi); the first term is perpendicular to the flapped blade.
+            let axial = section.flap_cos * in_plane * cos_inflow;
+            let projected = local_speed * (axial + through * sin_inflow);
+            sum += element.lift_coefficient(alpha, local_speed * speed) * projected;
+            element.count_work();
+        }
+        let lift = sum / self.blades.len() as f64;
+        let climb = L::splat(flow.climb);
+        element
+            .work
+            .count(momentum.descent.work_of(climb, far.axial));
+        let edgewise = L::splat(flow.edgewise);
+        let resultant = momentum.descent.speeds(edgewise, climb, far.axial) / speed;
+        let factor = element.tip_loss_factor(wake_sine(flow, momentum, *undisturbed, inflow_angle));
+        C(4.0) * factor * resultant * induced_part - lift.times(element.solidity())
     }
-    let lift = sum / positions.len() as f64;
-    let momentum_work = momentum.descent.work(flow.climb, far.axial);
-    element.work.count(positions.len() as u64 + momentum_work);
-    let resultant = momentum.descent.speed(flow.edgewise, flow.climb, far.axial) / speed;
-    let induced_part = (inflow_angle - undisturbed.angle).sin();
-    let factor = element.tip_loss_factor(wake_sine(flow, momentum, undisturbed, inflow_angle));
-    factor * 4.0 * resultant * induced_part - lift * element.solidity()
 }
 
 /// The variation around the annulus that the skew of the wake gives; `axial`: induced velocity,
 /// m/s.
-fn skew<S: Scalar>(
-    element: &Element<S>,
-    flow: &DiscFlow<S>,
-    momentum: &Momentum<S>,
-    axial: S,
-) -> Coefficients<S> {
+fn skew<L: Lanes>(
+    element: &Element<L>,
+    flow: &DiscFlow<L::One>,
+    momentum: &Momentum<L::One>,
+    axial: L,
+) -> Coefficients<L> {
     let tip_speed = flow.rotation.abs() * element.tip_radius;
-    Skew::Howlett
-        .coefficients(
-            flow.edgewise,
-            momentum.wake_speed(flow.climb, axial),
-            tip_speed,
-        )
-        .scaled(element.radius_ratio())
+    let through = momentum.wake_speed(L::splat(flow.climb), axial);
+    let of_lane =
+        |lane: usize| Skew::Howlett.coefficients(flow.edgewise, through.lane(lane), tip_speed);
+    let ratio = element.radius_ratio();
+    Coefficients {
+        kx: L::from_lanes(|lane| of_lane(lane).kx).times(ratio),
+        ky: L::nil(),
+    }
 }
 
 /// The velocity induced at an inflow angle, without a difference of large numbers.
-fn induced<S: Scalar>(undisturbed: Undisturbed<S>, inflow_angle: S) -> Induced<S> {
+#[inline(always)]
+fn induced<L: Lanes>(undisturbed: Undisturbed<L>, inflow_angle: L) -> Induced<L> {
     let magnitude = undisturbed.speed * (inflow_angle - undisturbed.angle).sin();
+    let (sin, cos) = inflow_angle.sin_cos();
     Induced {
-        axial: magnitude * inflow_angle.cos(),
-        swirl: magnitude * inflow_angle.sin(),
+        axial: magnitude * cos,
+        swirl: magnitude * sin,
     }
 }
 
 /// Sine of the angle at which the wake leaves the disc, for Prandtl's F: |sin phi| in momentum
 /// theory.
-fn wake_sine<S: Scalar>(
-    flow: &DiscFlow<S>,
-    momentum: &Momentum<S>,
-    undisturbed: Undisturbed<S>,
-    inflow_angle: S,
-) -> S {
+fn wake_sine<L: Lanes>(
+    flow: &DiscFlow<L::One>,
+    momentum: &Momentum<L::One>,
+    undisturbed: Undisturbed<L>,
+    inflow_angle: L,
+) -> L {
+    let climb = L::splat(flow.climb);
     let axial = induced(undisturbed, inflow_angle).axial;
-    if momentum.is_plain(flow.climb, axial) {
-        return inflow_angle.sin();
+    let is_plain = momentum.is_plain(climb, axial);
+    let sine = inflow_angle.sin();
+    if is_plain.all() {
+        return sine;
     }
     let speed = undisturbed.speed * (inflow_angle - undisturbed.angle).cos().abs();
-    momentum.wake_sine_in_descent(flow.climb, axial, speed)
+    let in_descent = momentum.wake_sine_in_descent(climb, axial, speed);
+    L::select(is_plain, sine, in_descent)
 }
 
-/// See `ElementInflow::load`.
-pub(super) fn load<S: Scalar>(
-    disc: &Disc<S>,
-    element: &Element<S>,
-    sweep: &mut Sweep<S>,
-) -> Result<S, RootError> {
-    let inflow = solve(element, disc.flow, disc.positions, &disc.momentum)?;
-    sweep.load_in(InducedAt::Blade, |_, position| {
-        Ok(inflow.at(position.azimuth))
-    })?;
-    Ok(inflow.mean_axial)
-}
-
-/// The velocity induced in an element's annulus, averaged over the blade positions.
+/// The velocity induced in the annuli of a block's elements, averaged over the blade positions.
 ///
 /// Fails only if the airfoil's or the flow's numbers are not finite, or overflow.
-pub fn solve<S: Scalar>(
-    element: &Element<S>,
-    flow: &DiscFlow<S>,
-    positions: &[BladePosition<S>],
-    momentum: &Momentum<S>,
-) -> Result<AnnulusInflow<S>, RootError> {
-    let rotation = flow.rotation * element.radius;
-    let undisturbed = Undisturbed {
-        speed: rotation.hypot(flow.climb),
-        angle: flow.climb.atan2(rotation),
+#[inline(always)]
+pub(super) fn find<L: Lanes>(
+    disc: &Disc<L::One>,
+    block: &Block,
+    element: &Element<L>,
+    blades: &[BladeFlow<L::One>],
+) -> Result<AnnulusInflow<L>, RootError> {
+    if is_one_for_all(disc.flow, blades)
+        && let Some(inflow) = in_axial_flow(element, disc.flow, &disc.momentum)
+    {
+        return Ok(inflow);
+    }
+    let inflow = search(disc, block, blades)?;
+    Ok(inflow.converted())
+}
+
+/// `solve` in the lanes that every processor has.
+#[inline(never)]
+fn search<S: Scalar>(
+    disc: &Disc<S>,
+    block: &Block,
+    blades: &[BladeFlow<S>],
+) -> Result<AnnulusInflow<S::In<Portable>>, RootError> {
+    let element = disc.blade.block::<S::In<Portable>>(block);
+    solve(&element, disc.flow, blades, &disc.momentum)
+}
+
+impl<L: Lanes> Undisturbed<L> {
+    #[inline(always)]
+    fn of(element: &Element<L>, flow: &DiscFlow<L::One>) -> Self {
+        let rotation = L::splat(flow.rotation).times(element.radius);
+        let climb = L::splat(flow.climb);
+        let speed = rotation.length(climb);
+        Self {
+            speed,
+            angle: climb.atan2(rotation),
+            sin: climb / speed,
+            cos: rotation / speed,
+        }
+    }
+}
+
+/// Hover and climb by Newton's method; none if it does not find all angles, or where there may be
+/// more than one: only between phi0 and stall the residual grows with phi (the momentum grows and
+/// the lift falls), and has one root.
+#[inline(always)]
+fn in_axial_flow<L: Lanes>(
+    element: &Element<L>,
+    flow: &DiscFlow<L::One>,
+    momentum: &Momentum<L::One>,
+) -> Option<AnnulusInflow<L>> {
+    let undisturbed = Undisturbed::of(element, flow);
+    let without = element.pitch - undisturbed.angle;
+    let climb = L::splat(flow.climb);
+    let is_simple = momentum.ground.is_far()
+        && momentum.is_plain(climb, without).all()
+        && (!(climb * without).values().is_below(0.0)).all()
+        && undisturbed.speed.values().is_above(0.0).all()
+        && (!without.values().negligible(0.0)).all()
+        && element.is_unstalled(without.values()).all();
+    if !is_simple {
+        return None;
+    }
+    let angle = {
+        let plain = element.map(L::values);
+        let element = plain.map(Dual::from_re);
+        let undisturbed = Undisturbed {
+            speed: Dual::from_re(undisturbed.speed.values()),
+            angle: Dual::from_re(undisturbed.angle.values()),
+            sin: Dual::from_re(undisturbed.sin.values()),
+            cos: Dual::from_re(undisturbed.cos.values()),
+        };
+        let balance = AxialBalance {
+            element: &element,
+            undisturbed,
+        };
+        let mut angle = first_angle(&plain, undisturbed.angle.re, undisturbed.speed.re);
+        let mut step = L::Real::nil();
+        for _ in 0..MAX_STEPS {
+            let at = balance.residual(Dual::new(angle, L::Real::unit()));
+            step = at.re / at.eps;
+            angle = angle - step;
+            if step.negligible(LAST_STEP).all() {
+                break;
+            }
+        }
+        // The root lies on the side to which the lift pushes; NaN lies nowhere.
+        let pushed = (angle - undisturbed.angle.re) * without.values();
+        let is_inside = pushed.is_above(0.0);
+        if !(step.negligible(LAST_STEP) & is_inside).all() {
+            return None;
+        }
+        angle
     };
-    if undisturbed.speed.value() == 0.0 {
+    let balance = AxialBalance {
+        element,
+        undisturbed,
+    };
+    let inflow_angle = L::at_roots(angle, &balance);
+    let induced = induced(undisturbed, inflow_angle);
+    let factor = element.tip_loss_factor(inflow_angle.sin());
+    Some(AnnulusInflow {
+        induced,
+        mean_axial: factor * induced.axial,
+        ..AnnulusInflow::zero()
+    })
+}
+
+/// The inflow angle by the closed form, first for a lift slope of `FIRST_SLOPE` without tip loss,
+/// and then with Prandtl's F and the lift slope at that angle; `undisturbed` is phi0.
+#[inline(always)]
+fn first_angle<V: Plain>(element: &Element<V>, undisturbed: V, speed: V) -> V {
+    let solidity = element.solidity();
+    let angle = through_flow(solidity * (FIRST_SLOPE / 8.0), undisturbed, element.pitch);
+    let alpha = element.pitch - angle;
+    let slope = element.lift_coefficient(alpha, speed) / alpha;
+    let is_usual = slope.is_above(0.5 * FIRST_SLOPE) & slope.is_below(2.0 * FIRST_SLOPE);
+    let slope = V::select(is_usual, slope, V::splat(FIRST_SLOPE));
+    let factor = element.tip_loss_factor(angle);
+    through_flow(
+        solidity * slope / (factor * 8.0),
+        undisturbed,
+        element.pitch,
+    )
+}
+
+/// The velocity induced in annuli, by a bracket.
+///
+/// Fails only if the airfoil's or the flow's numbers are not finite, or overflow.
+pub fn solve<L: Lanes>(
+    element: &Element<L>,
+    flow: &DiscFlow<L::One>,
+    blades: &[BladeFlow<L::One>],
+    momentum: &Momentum<L::One>,
+) -> Result<AnnulusInflow<L>, RootError> {
+    let undisturbed = Undisturbed::of(element, flow);
+    if undisturbed.speed.values().negligible(0.0).any() {
         return Ok(AnnulusInflow::zero());
     }
-    let equation = |phi: S| mean_residual(element, flow, positions, momentum, undisturbed, phi);
-    let inflow_angle = if is_one_for_all(flow, positions) {
+    let mean = MeanBalance {
+        element,
+        flow,
+        blades,
+        momentum,
+        undisturbed,
+    };
+    let inflow_angle = if is_one_for_all(flow, blades) {
         // At phi0 nothing is induced, and R is the lift alone.
         let lift = element.lift_coefficient(element.pitch - undisturbed.angle, undisturbed.speed);
-        let start = lift * -element.solidity();
-        if momentum.is_plain(flow.climb, lift) && momentum.ground.is_far() {
-            let equation = |phi: S| axial_residual(element, undisturbed, phi);
-            inflow_angle(undisturbed.angle, start, element.pitch, equation)?
+        let start = -lift.times(element.solidity());
+        let is_plain = momentum.is_plain(L::splat(flow.climb), lift).all();
+        if is_plain && momentum.ground.is_far() {
+            let axial = AxialBalance {
+                element,
+                undisturbed,
+            };
+            inflow_angle(undisturbed.angle, start, element.pitch, &axial)?
         } else {
-            inflow_angle(undisturbed.angle, start, element.pitch, equation)?
+            inflow_angle(undisturbed.angle, start, element.pitch, &mean)?
         }
     } else {
-        let start = equation(undisturbed.angle);
-        inflow_angle(undisturbed.angle, start, element.pitch, equation)?
+        let start = mean.residual(undisturbed.angle);
+        inflow_angle(undisturbed.angle, start, element.pitch, &mean)?
     };
     let far = induced(undisturbed, inflow_angle);
-    let induced = momentum.at_the_blades(flow.edgewise, far.axial, far);
+    let induced = momentum.at_the_annuli(flow.edgewise, far);
     let factor = element.tip_loss_factor(wake_sine(flow, momentum, undisturbed, inflow_angle));
     Ok(AnnulusInflow {
         induced,
@@ -293,86 +484,94 @@ pub fn solve<S: Scalar>(
 }
 
 /// Whether a single position without flapping stands for all.
-fn is_one_for_all<S: Scalar>(flow: &DiscFlow<S>, positions: &[BladePosition<S>]) -> bool {
-    matches!(positions, [position] if position.flap_sin.is_negligible(0.0))
-        && flow.is_axisymmetric()
+#[inline(always)]
+fn is_one_for_all<S: Scalar>(flow: &DiscFlow<S>, blades: &[BladeFlow<S>]) -> bool {
+    matches!(blades, [blade] if blade.flap_sin.is_negligible(0.0)) && flow.is_axisymmetric()
 }
 
 /// The inflow angle, rad, with the residual `start` at phi0 = `undisturbed`; `pitch` of the
 /// element.
-fn inflow_angle<S: Scalar>(
-    undisturbed: S,
-    start: S,
-    pitch: S,
-    equation: impl Fn(S) -> S,
-) -> Result<S, RootError> {
+fn inflow_angle<L: Lanes>(
+    undisturbed: L,
+    start: L,
+    pitch: L,
+    equation: &impl Equation<L>,
+) -> Result<L, RootError> {
     let first = End {
-        at: undisturbed.value(),
-        residual: start.value(),
+        at: undisturbed.values(),
+        residual: start.values(),
     };
-    let found = root(first, pitch.value(), |phi| {
-        equation(S::constant(phi)).value()
+    let found = root(first, pitch.values(), |phi| {
+        equation.residual(L::real(phi)).values()
     })?;
     // Nothing is induced, or the mean flow is brought to rest: the angle keeps its distance to
     // phi0.
-    let distance = found - undisturbed.value();
-    if start.is_negligible(0.0) || f64::abs(distance) > FRAC_PI_2 - FAR_END {
-        return Ok(S::at_root(found, |phi| phi - undisturbed - distance));
+    let distance = found - undisturbed.values();
+    let is_kept = start.negligible(0.0) | distance.abs().is_above(FRAC_PI_2 - FAR_END);
+    let kept = undisturbed.plus_real(distance);
+    if is_kept.all() {
+        return Ok(kept);
     }
-    Ok(S::at_root(found, equation))
+    Ok(L::select(is_kept, kept, L::at_roots(found, equation)))
 }
 
 /// The root that belongs to the residual at phi0.
-fn root(start: End, pitch: f64, equation: impl Fn(f64) -> f64) -> Result<f64, RootError> {
-    let end = |at: f64| End {
+fn root<V: Plain>(start: End<V>, pitch: V, equation: impl Fn(V) -> V) -> Result<V, RootError> {
+    let end = |at: V| End {
         at,
         residual: equation(at),
     };
-    let search = |from: End, to: End| bracketed(&equation, from, to, TOLERANCE);
-
-    if start.residual == 0.0 {
-        return Ok(start.at); // no lift, nothing induced
-    }
-    let side = if start.residual < 0.0 { 1.0 } else { -1.0 };
+    let is_nothing = start.residual.negligible(0.0); // no lift, nothing induced
+    let side = V::select(start.residual.is_below(0.0), V::splat(1.0), V::splat(-1.0));
+    let is_descent = (side * start.at).is_below(0.0) & !is_nothing;
     let mut from = start;
-    if side * start.at < 0.0 {
+    let mut is_windmill = !is_nothing & is_nothing;
+    if is_descent.any() {
         for part in [0.5, 0.375, 0.25, 0.125, 0.0] {
-            from = end(part * start.at);
-            if from.residual * side >= 0.0 {
-                return search(start, from);
+            let is_open = is_descent & !is_windmill;
+            let next = end(start.at * part);
+            from = End::select(is_open, next, from);
+            is_windmill = is_windmill | (is_open & !(next.residual * side).is_below(0.0));
+            if (is_windmill | !is_descent).all() {
+                break;
             }
         }
     }
     let far = start.at + side * FRAC_PI_2;
+    let mut to = End {
+        at: far,
+        residual: -from.residual,
+    };
     // A tighter bracket: without lift, at phi = theta of a symmetrical section, R has the sign of
     // the side, which is checked rather than assumed.
-    if side * (pitch - from.at) > 0.0 && side * (far - pitch) > 0.0 {
+    let is_between = (side * (pitch - from.at)).is_above(0.0)
+        & (side * (far - pitch)).is_above(0.0)
+        & !is_windmill
+        & !is_nothing;
+    if is_between.any() {
         let pitch = end(pitch);
-        if pitch.residual * side > 0.0 {
-            return search(from, pitch);
-        }
+        let is_tighter = is_between & (pitch.residual * side).is_above(0.0);
+        to = End::select(is_tighter, pitch, to);
     }
-    search(
-        from,
-        End {
-            at: far,
-            residual: -from.residual,
-        },
-    )
+    let first = End::select(is_windmill | is_nothing, start, from);
+    let last = End::select(is_windmill, from, to);
+    let last = End::select(is_nothing, start, last);
+    bracketed(&equation, first, last, V::splat(TOLERANCE))
 }
 
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use crate::numbers::Dual64;
     use crate::{
         airfoil::{Airfoil, Lift, SectionModel, Similarity},
         compressibility::Compressibility,
-        disc::{Azimuth, Flap},
+        disc::{Azimuth, BladePosition, Flap},
         element::Section,
         inflow::{Descent, Ground, GroundEffect},
+        numbers::LANES,
         tip_loss::TipLoss,
     };
-    use num_dual::Dual64;
     use std::path::Path;
 
     const MODEL: SectionModel = SectionModel {
@@ -381,14 +580,14 @@ pub(super) mod tests {
         drag_reynolds_exponent: 0.2,
     };
 
-    pub fn airfoil() -> Airfoil {
+    pub fn airfoil() -> [Airfoil; 1] {
         let folder =
             Path::new(env!("CARGO_MANIFEST_DIR")).join("../../modelDescription/resources/airfoils");
-        Airfoil::read(&folder.join("naca0015.polar")).unwrap()
+        [Airfoil::read(&folder.join("naca0015.polar")).unwrap()]
     }
 
     /// An element at 0.8 R of three blades with Prandtl's tip loss.
-    pub fn element<S: Scalar>(airfoil: &Airfoil, chord: f64, pitch: S) -> Element<'_, S> {
+    pub fn element<S: Scalar>(airfoil: &[Airfoil], chord: f64, pitch: S) -> Element<'_, S> {
         Element {
             blades: 3.0,
             radius: 0.8,
@@ -399,9 +598,8 @@ pub(super) mod tests {
             lifting_share: S::one(),
             tip_loss: TipLoss::Prandtl,
             section: Section {
-                inner: airfoil,
-                outer: airfoil,
-                outer_share: 0.0,
+                airfoils: airfoil,
+                shares: &[(0, [1.0; LANES])],
             },
             model: &MODEL,
             unit_flow: Similarity {
@@ -410,6 +608,7 @@ pub(super) mod tests {
             },
             density: S::constant(1.2),
             work: Box::leak(Box::default()),
+            count: 1,
         }
     }
 
@@ -417,7 +616,7 @@ pub(super) mod tests {
     /// at no lift and where the table has no corner.
     #[test]
     fn the_derivatives_of_the_solution_are_those_of_its_differences() {
-        fn induced<S: Scalar>(airfoil: &Airfoil, pitch: S, climb: S, edgewise: f64) -> S {
+        fn induced<S: Scalar>(airfoil: &[Airfoil], pitch: S, climb: S, edgewise: f64) -> S {
             let flow = DiscFlow {
                 rotation: S::constant(100.0),
                 speed: S::constant(100.0),
@@ -444,7 +643,7 @@ pub(super) mod tests {
                 descent: Descent::Measured.unstretched(),
                 ground,
             };
-            let inflow = solve(&element, &flow, &[position], &momentum);
+            let inflow = solve(&element, &flow, &[flow.at_blade(&position)], &momentum);
             inflow.unwrap().induced.axial
         }
         let airfoil = airfoil();
@@ -498,7 +697,8 @@ pub(super) mod tests {
                     descent: Descent::Momentum.unstretched(),
                     ground: Ground::default(),
                 };
-                let inflow = solve(&element, &flow, &[anywhere], &momentum).unwrap();
+                let inflow =
+                    solve(&element, &flow, &[flow.at_blade(&anywhere)], &momentum).unwrap();
                 let is_windmill = climb + inflow.induced.axial < -1e-6;
                 changes += u32::from(is_windmill != was_windmill);
                 was_windmill = is_windmill;

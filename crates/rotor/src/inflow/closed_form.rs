@@ -24,26 +24,33 @@
 
 use super::Disc;
 use crate::{
-    airfoil::{Airfoil, wrapped},
+    airfoil::{Similarity, wrapped},
     element::{Element, SectionLoad},
+    geometry::Block,
+    numbers::{C, Dual, Equation, Lanes, Mask, Plain, Portable, Scalar, converted},
     root::{End, RootError, bracketed},
-    scalar::{C, Scalar},
-    sweep::Sweep,
 };
 
-/// Loads and induced velocity of a blade element by the closed form. SI units.
+/// Loads and induced velocity of blade elements by the closed form. SI units.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct ClosedForm<S = f64> {
+pub struct ClosedForm<L = f64> {
     /// Loads of one blade's section.
-    pub load: SectionLoad<S>,
+    pub load: SectionLoad<L>,
     /// Induced velocity at the blade, positive down, m/s.
-    pub induced: S,
+    pub induced: L,
     /// Mean of the induced velocity around the annulus, positive down, m/s.
-    pub mean_induced: S,
+    pub mean_induced: L,
 }
 
 /// Tolerance of the flow through the disc, as a part of its bracket.
 const TOLERANCE: f64 = 1e-14;
+
+/// Newton's method has found the flow where its last step is at most this part of the bracket: what
+/// is left is about the square of it.
+const LAST_STEP: f64 = 1e-8;
+
+/// Bound on Newton's steps; two or three are usual.
+const MAX_STEPS: u32 = 6;
 
 /// Speed of a section, m/s, below which it counts as stopped.
 const STANDSTILL: f64 = 1e-6;
@@ -53,49 +60,82 @@ const STANDSTILL: f64 = 1e-6;
 /// * `a`: sigma cl_alpha/16 times tip speed, > 0, m/s
 /// * `climb`: m/s
 /// * `pitch_flow`: theta Omega r, m/s
-fn through_flow<S: Scalar>(a: S, climb: S, pitch_flow: S) -> S {
-    if pitch_flow.is_below(0.0) {
-        return -through_flow(a, -climb, -pitch_flow);
-    }
-    let upward = a + C(0.5) * climb;
-    let windmill = upward * upward - C(2.0) * a * pitch_flow;
-    if upward.value() < 0.0 && windmill.value() >= 0.0 {
-        return upward - windmill.sqrt();
-    }
+#[inline(always)]
+pub(super) fn through_flow<L: Lanes>(a: L, climb: L, pitch_flow: L) -> L {
+    // Mirrored, so that the pitch is not negative.
+    let is_mirrored = pitch_flow.is_below(0.0);
+    let climb = L::select(is_mirrored, -climb, climb);
+    let pitch_flow = pitch_flow.abs();
     let half = a - C(0.5) * climb;
-    (half * half + C(2.0) * a * pitch_flow).sqrt() - half
+    let mut flow = (half * half + C(2.0) * a * pitch_flow).sqrt() - half;
+    let upward = a + C(0.5) * climb;
+    let is_upward = upward.values().is_below(0.0);
+    if is_upward.any() {
+        let windmill = upward * upward - C(2.0) * a * pitch_flow;
+        let is_windmill = is_upward & !windmill.values().is_below(0.0);
+        flow = L::select(is_windmill, upward - windmill.sqrt(), flow);
+    }
+    L::select(is_mirrored, -flow, flow)
 }
 
-/// See `ElementInflow::load`.
-pub(super) fn load<S: Scalar>(
-    disc: &Disc<S>,
-    element: &Element<S>,
-    sweep: &mut Sweep<S>,
-) -> Result<S, RootError> {
-    let rotation = disc.flow.rotation * element.radius;
-    let solution = solve(element, rotation, disc.flow.climb)?;
-    element.work.count(1);
-    sweep.take(&solution.load, solution.induced);
-    Ok(solution.mean_induced)
-}
-
-/// The flow and the loads at one blade element in axial flow.
-///
-/// * `rotation`: Omega r, m/s; below 1e-6 m/s there is no load
-/// * `climb`: flow down through the disc, any sign, m/s
+/// The flow and the loads at the elements of a block.
 ///
 /// # Errors
 ///
-/// If the data of the element or the flow are not finite, so that the equation with Prandtl's F has
-/// no solution.
-pub fn solve<S: Scalar>(
-    element: &Element<S>,
-    rotation: S,
-    climb: S,
-) -> Result<ClosedForm<S>, RootError> {
-    let zero = S::zero();
-    if rotation.value() < STANDSTILL {
-        // Inflow angles are small only if the rotor turns. At standstill the theory has no load.
+/// If the data of the elements or the flow are not finite, so that the equation with Prandtl's F
+/// has no solution.
+#[inline(always)]
+pub(super) fn find<L: Lanes>(
+    disc: &Disc<L::One>,
+    block: &Block,
+    element: &Element<L>,
+) -> Result<ClosedForm<L>, RootError> {
+    let (rotation, climb) = (disc.flow.rotation, disc.flow.climb);
+    if let Ok(solution) = solve::<L, ByNewton>(element, rotation, climb) {
+        return Ok(solution);
+    }
+    let solution = search(disc, block)?;
+    let load = solution.load;
+    Ok(ClosedForm {
+        load: SectionLoad {
+            normal: converted(load.normal),
+            tangential: converted(load.tangential),
+            angle_of_attack: converted(load.angle_of_attack),
+            speed: converted(load.speed),
+            lift_coefficient: converted(load.lift_coefficient),
+            drag_coefficient: converted(load.drag_coefficient),
+        },
+        induced: converted(solution.induced),
+        mean_induced: converted(solution.mean_induced),
+    })
+}
+
+/// `solve` by a bracket in the lanes that every processor has.
+#[inline(never)]
+fn search<S: Scalar>(
+    disc: &Disc<S>,
+    block: &Block,
+) -> Result<ClosedForm<S::In<Portable>>, RootError> {
+    let element = disc.blade.block::<S::In<Portable>>(block);
+    solve::<_, ByBracket>(&element, disc.flow.rotation, disc.flow.climb)
+}
+
+/// The flow and the loads at blade elements in axial flow.
+///
+/// * `speed`: Omega, rad/s; where Omega r is below 1e-6 m/s there is no load
+/// * `climb`: flow down through the disc, any sign, m/s
+#[inline(always)]
+fn solve<L: Lanes, M: Method>(
+    element: &Element<L>,
+    speed: L::One,
+    climb: L::One,
+) -> Result<ClosedForm<L>, RootError> {
+    let zero = L::nil();
+    let rotation = L::splat(speed).times(element.radius);
+    let climb = L::splat(climb);
+    // Inflow angles are small only if the rotor turns. At standstill the theory has no load.
+    let is_stopped = rotation.values().is_below(STANDSTILL);
+    if is_stopped.all() {
         return Ok(ClosedForm {
             load: SectionLoad::zero(),
             induced: zero,
@@ -103,104 +143,195 @@ pub fn solve<S: Scalar>(
         });
     }
     let flow = element.similarity(rotation);
-    let (slope, zero_lift) = {
-        let pitch = element.pitch.value();
-        let line = |airfoil: &Airfoil| airfoil.lift_line(element.model, pitch, flow);
-        let slope = element.section.mixed(|airfoil| line(airfoil).0);
-        let moment = element
-            .section
-            .mixed(|airfoil| line(airfoil).0 * line(airfoil).1);
-        let zero_lift = if slope.value() == 0.0 {
-            zero
-        } else {
-            moment / slope
-        };
-        (slope * element.lifting_share, zero_lift)
-    };
+    let (slope, zero_lift) = lift_line(element, flow);
+    let slope = slope * element.lifting_share;
     let pitch = element.pitch - zero_lift;
 
     // The compressibility rules depend on the lift coefficient: eq. (94) once with the
     // incompressible slope for the lift, and again with the slope corrected at that lift.
-    let through = loaded_flow(element, rotation, climb, slope, pitch)?;
-    let lift = slope * (pitch - through / rotation);
-    let gain = |airfoil: &Airfoil| airfoil.compressibility(element.model, lift, flow.mach);
-    let corrected = slope * element.section.mixed(gain);
-    let through = if corrected.value() == slope.value() {
-        through
-    } else {
-        loaded_flow(element, rotation, climb, corrected, pitch)?
-    };
+    let mut corrected = slope;
+    let mut through = zero;
+    for is_last in [false, true] {
+        let balance = Balance {
+            element,
+            rotation,
+            climb,
+            a: corrected.times(element.solidity()) * rotation / 8.0,
+            pitch_flow: pitch * rotation,
+        };
+        // No lift, nothing induced.
+        let has_lift = corrected.values().is_above(0.0) & !is_stopped;
+        let loaded = balance.solve::<M>(has_lift)?;
+        through = L::select(has_lift, loaded, climb);
+        let lift = slope * (pitch - through / rotation);
+        let gain = element.compressibility(lift, flow.mach);
+        let next = slope * gain;
+        let is_same = (next.values() - corrected.values()).negligible(0.0).all();
+        if is_last || is_same {
+            break;
+        }
+        corrected = next;
+    }
 
     let inflow_angle = through / rotation;
     let angle_of_attack = wrapped(element.pitch - inflow_angle);
     let lift = corrected * (pitch - inflow_angle);
     let drag = element.drag_coefficient(angle_of_attack, rotation);
-    let pressure = C(0.5) * element.density * rotation * rotation * element.chord;
+    let pressure = C(0.5) * element.density * rotation * rotation.times(element.chord);
     let induced = through - climb;
+    let mean_induced = induced * element.tip_loss_factor(inflow_angle);
+    let turning = |quantity: L| L::select(is_stopped, zero, quantity);
     Ok(ClosedForm {
         load: SectionLoad {
-            normal: pressure * lift,
-            tangential: pressure * (inflow_angle * lift + drag),
-            angle_of_attack,
-            speed: rotation,
-            lift_coefficient: lift,
-            drag_coefficient: drag,
+            normal: turning(pressure * lift),
+            tangential: turning(pressure * (inflow_angle * lift + drag)),
+            angle_of_attack: turning(angle_of_attack),
+            speed: turning(rotation),
+            lift_coefficient: turning(lift),
+            drag_coefficient: turning(drag),
         },
-        induced,
-        mean_induced: induced * factor(element, rotation, through),
+        induced: turning(induced),
+        mean_induced: turning(mean_induced),
     })
 }
 
-/// Flow through the disc with tip loss.
-fn loaded_flow<S: Scalar>(
-    element: &Element<S>,
-    rotation: S,
-    climb: S,
-    slope: S,
-    pitch: S,
-) -> Result<S, RootError> {
-    if slope.value() <= 0.0 {
-        return Ok(climb); // no lift, nothing induced
-    }
-    // sigma Omega R/16 with sigma = N c/(pi R) is (N c/(2 pi r)) Omega r/8.
-    let a = slope * element.solidity() * rotation / 8.0;
-    let pitch_flow = pitch * rotation;
-    let with = |factor: S| through_flow(a / factor, climb, pitch_flow);
-    let without_loss = with(S::one());
-    if !element.tip_loss.has_factor() {
-        // No loss, or the end of the lift, which `slope` contains.
-        return Ok(without_loss);
-    }
-    // The solution lies between `without_loss` (F = 1) and its limit theta Omega r (F = 0).
-    let residual = |through: S| {
-        let factor = factor(element, rotation, through);
-        if factor.value() > 0.0 {
-            through - with(factor)
-        } else {
-            through - pitch_flow
+/// The lift of the mixed section as one line: its slope, 1/rad, and its angle of zero lift, rad.
+#[inline(always)]
+fn lift_line<L: Lanes>(element: &Element<L>, flow: Similarity<L>) -> (L, L) {
+    let pitch = element.pitch.values();
+    let section = &element.section;
+    let (mut slope, mut moment) = (L::nil(), L::nil());
+    for (airfoil, shares) in section.shares {
+        let line = section.airfoils[*airfoil].lift_line(element.model, pitch, flow);
+        if section.shares.len() == 1 {
+            return line;
         }
-    };
-    let plain = |through: f64| residual(S::constant(through)).value();
-    let (begin, limit) = (without_loss.value(), pitch_flow.value());
-    let first = End {
-        at: begin,
-        residual: plain(begin),
-    };
-    let side = if limit > begin { 1.0 } else { -1.0 };
-    if first.residual * side >= 0.0 {
-        return Ok(without_loss); // F differs from 1 by less than the rounding of the equation
+        let share = L::Real::load(shares);
+        slope += line.0.times(share);
+        moment += (line.0 * line.1).times(share);
     }
-    let last = End {
-        at: limit,
-        residual: -first.residual,
-    };
-    let through = bracketed(plain, first, last, TOLERANCE * (limit - begin).abs())?;
-    Ok(S::at_root(through, residual))
+    let is_flat = slope.values().negligible(0.0);
+    (slope, L::select(is_flat, L::nil(), moment / slope))
 }
 
-/// Prandtl's F in a flow through the disc, m/s.
-fn factor<S: Scalar>(element: &Element<S>, rotation: S, through: S) -> S {
-    element.tip_loss_factor(through / rotation) // small angle, as in thesis eq. (95)
+/// The balance of the flow through the disc with tip loss.
+struct Balance<'a, L: Lanes> {
+    element: &'a Element<'a, L>,
+    rotation: L,
+    climb: L,
+    /// sigma Omega R cl_alpha/16, which is (N c/(2 pi r)) Omega r cl_alpha/8, m/s.
+    a: L,
+    /// theta Omega r, m/s.
+    pitch_flow: L,
+}
+
+impl<L: Lanes> Equation<L> for Balance<'_, L> {
+    #[inline(always)]
+    fn residual(&self, through: L) -> L {
+        // Small angle, as in thesis eq. (95).
+        let factor = self.element.tip_loss_factor(through / self.rotation);
+        let loaded = through_flow(self.a / factor, self.climb, self.pitch_flow);
+        let is_lossy = factor.values().is_above(0.0);
+        through - L::select(is_lossy, loaded, self.pitch_flow)
+    }
+}
+
+impl<'a, L: Lanes> Balance<'a, L> {
+    /// The flow through the disc in the lanes that have lift.
+    #[inline(always)]
+    fn solve<M: Method>(&self, has_lift: L::Mask) -> Result<L, RootError> {
+        let without_loss = through_flow(self.a, self.climb, self.pitch_flow);
+        if !self.element.tip_loss.has_factor() {
+            // No loss, or the end of the lift, which the slope contains.
+            return Ok(without_loss);
+        }
+        // The solution lies between `without_loss` (F = 1) and its limit theta Omega r (F = 0).
+        let range = (without_loss.values(), self.pitch_flow.values());
+        let found = M::find(self, range, has_lift)?;
+        Ok(L::at_roots(found, self))
+    }
+}
+
+/// A way to find the flow through the disc.
+trait Method {
+    /// The root in a range from F = 1 to F = 0, in the lanes that have lift.
+    fn find<L: Lanes>(
+        balance: &Balance<L>,
+        range: (L::Real, L::Real),
+        has_lift: L::Mask,
+    ) -> Result<L::Real, RootError>;
+}
+
+/// Fails where it does not converge.
+struct ByNewton;
+
+/// Always finds the root of finite numbers.
+struct ByBracket;
+
+impl Method for ByNewton {
+    #[inline(always)]
+    fn find<L: Lanes>(
+        balance: &Balance<L>,
+        (begin, limit): (L::Real, L::Real),
+        has_lift: L::Mask,
+    ) -> Result<L::Real, RootError> {
+        let accuracy = (limit - begin).abs() * LAST_STEP;
+        let dual = |x: L| Dual::from_re(x.values());
+        let balance = Balance {
+            element: &balance.element.map(dual),
+            rotation: dual(balance.rotation),
+            climb: dual(balance.climb),
+            a: dual(balance.a),
+            pitch_flow: dual(balance.pitch_flow),
+        };
+        let mut through = begin;
+        let mut is_found = !has_lift;
+        for _ in 0..MAX_STEPS {
+            let at = balance.residual(Dual::new(through, L::Real::unit()));
+            let step = at.re / at.eps;
+            through = through - step;
+            is_found = !has_lift | !step.abs().above(accuracy);
+            if is_found.all() {
+                break;
+            }
+        }
+        let is_inside = !((through - begin) * (limit - through)).is_below(0.0);
+        if (is_found & (is_inside | !has_lift)).all() {
+            Ok(through)
+        } else {
+            Err(RootError::OutOfIterations)
+        }
+    }
+}
+
+impl Method for ByBracket {
+    fn find<L: Lanes>(
+        balance: &Balance<L>,
+        (begin, limit): (L::Real, L::Real),
+        has_lift: L::Mask,
+    ) -> Result<L::Real, RootError> {
+        let zero = L::Real::nil();
+        let plain = |through: L::Real| {
+            let residual = balance.residual(L::real(through)).values();
+            L::Real::select(has_lift, residual, zero)
+        };
+        let first = End {
+            at: begin,
+            residual: plain(begin),
+        };
+        let side = L::Real::select(limit.above(begin), L::Real::unit(), -L::Real::unit());
+        // F differs from 1 by less than the rounding of the equation.
+        let is_whole = !(first.residual * side).is_below(0.0);
+        let first = End {
+            residual: L::Real::select(is_whole, zero, first.residual),
+            ..first
+        };
+        let last = End {
+            at: limit,
+            residual: -first.residual,
+        };
+        bracketed(plain, first, last, (limit - begin).abs() * TOLERANCE)
+    }
 }
 
 #[cfg(test)]

@@ -1,17 +1,11 @@
 //! Glauert's momentum theory for the disc as a whole, with the linear distribution that the skew of
 //! the wake gives.
 
-use super::{Disc, linear::Coefficients, linear::Skew, uniform};
-use crate::{
-    disc::BladePosition,
-    error::SolveError,
-    induced::Field,
-    scalar::Scalar,
-    sweep::{InducedAt, mean_thrust},
-};
+use super::{AllElements, Disc, Induction, Number, linear::Coefficients, linear::Skew, uniform};
+use crate::{error::SolveError, induced::Field, sweep::Wanted};
 use core::f64::consts::PI;
 
-impl<S: Scalar> Disc<'_, S> {
+impl<S: Number> Disc<'_, S> {
     /// Mean induced velocity and its distribution at the blades, in wind axes. Fails if the balance
     /// of thrust and momentum has no solution, which needs numbers that are not finite.
     pub(crate) fn momentum_field(&self, skew: Skew) -> Result<Field<S>, SolveError> {
@@ -35,18 +29,14 @@ impl<S: Scalar> Disc<'_, S> {
         };
         let density_area = blade.air.density * PI * radius * radius;
         let thrust = |mean: S| {
-            let field = distributed(mean);
-            let mut thrust = S::zero();
-            for i in 0..blade.len() {
-                let element = blade.element(i);
-                let induced = |position: &BladePosition<S>| {
-                    field.at(element.radius_ratio(), position.azimuth)
-                };
-                let per_length =
-                    mean_thrust(&element, flow, InducedAt::Annulus, self.positions, induced);
-                thrust += per_length * blade.width();
-            }
-            thrust / density_area
+            let loads = S::disc_loads(AllElements {
+                disc: self,
+                induction: &Induction::Field(distributed(mean)),
+                wanted: Wanted::Sums,
+                elements: &mut [],
+            });
+            // In a given field nothing is solved that could fail.
+            loads.map_or(S::constant(f64::NAN), |loads| loads.force.z / density_area)
         };
         let scale = (tip_speed + flow.edgewise + flow.climb.abs()).value();
         if scale == 0.0 {

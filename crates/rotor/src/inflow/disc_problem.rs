@@ -3,7 +3,8 @@
 use super::Momentum;
 use crate::{
     blade::Blade,
-    disc::{BladePosition, DiscFlow},
+    disc::{BladeFlow, BladePosition, DiscFlow},
+    numbers::Width,
 };
 
 /// The disc at an operating point: all that an inflow model needs to know of the rotor.
@@ -15,6 +16,10 @@ pub struct Disc<'a, S = f64> {
     pub flow: &'a DiscFlow<S>,
     /// Positions of the blades, or those over which the disc is averaged.
     pub positions: &'a [BladePosition<S>],
+    /// The flow at each position.
+    pub blade_flows: &'a [BladeFlow<S>],
+    /// The lanes in which elements are computed.
+    pub width: Width,
     /// Whether the positions are those of the blades.
     pub is_individual: bool,
     /// Momentum theory in descent and near the ground.

@@ -6,7 +6,7 @@ use super::{
     descent::{DescentLaw, MassFlow},
     linear::SkewedWake,
 };
-use crate::scalar::Scalar;
+use crate::numbers::Scalar;
 
 /// The flow through a rotor of radius R, m/s: edgewise, and down through the disc without induced
 /// velocity.

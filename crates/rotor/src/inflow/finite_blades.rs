@@ -27,89 +27,91 @@
 
 use super::{Disc, Momentum, annulus::AnnulusInflow, uniform};
 use crate::{
-    disc::{DiscFlow, SectionFlow},
+    disc::{BladeFlow, DiscFlow, SectionFlow},
     element::Element,
+    geometry::Block,
     induced::Induced,
+    numbers::{Lanes, Mask, Portable, Scalar},
     root::RootError,
-    scalar::Scalar,
-    sweep::{InducedAt, Sweep},
 };
-use core::{cell::Cell, f64::consts::PI};
+use core::f64::consts::PI;
 
-/// See `ElementInflow::load`.
-pub(super) fn load<S: Scalar>(
+/// The velocity that one blade's elements of a block induce, in the lanes that every processor has.
+#[inline(never)]
+pub(super) fn search<S: Scalar>(
     disc: &Disc<S>,
-    element: &Element<S>,
-    sweep: &mut Sweep<S>,
-) -> Result<S, RootError> {
-    let mean = Cell::new(S::zero());
-    sweep.load_in(InducedAt::Blade, |_, position| {
-        let section = disc.flow.at_section(element.radius, position);
-        let inflow = solve(element, &section, disc.flow, &disc.momentum)?;
-        mean.set(mean.get() + inflow.mean_axial / disc.positions.len() as f64);
-        Ok(inflow.induced)
-    })?;
-    Ok(mean.get())
+    block: &Block,
+    blade: &BladeFlow<S>,
+) -> Result<AnnulusInflow<S::In<Portable>>, RootError> {
+    let element = disc.blade.block::<S::In<Portable>>(block);
+    let section = blade.at_section(element.radius);
+    solve(&element, &section, disc.flow, &disc.momentum)
 }
 
-/// The velocity that a blade's element induces.
+/// The velocity that a blade's elements induce.
 ///
 /// `flow` gives the rotor speed and the edgewise speed. Fails only if numbers are not finite.
-pub fn solve<S: Scalar>(
-    element: &Element<S>,
-    section: &SectionFlow<S>,
-    flow: &DiscFlow<S>,
-    momentum: &Momentum<S>,
-) -> Result<AnnulusInflow<S>, RootError> {
-    let scale = (section.in_plane.hypot(section.through) + flow.edgewise).value();
-    if scale == 0.0 {
+pub fn solve<L: Lanes>(
+    element: &Element<L>,
+    section: &SectionFlow<L>,
+    flow: &DiscFlow<L::One>,
+    momentum: &Momentum<L::One>,
+) -> Result<AnnulusInflow<L>, RootError> {
+    let edgewise = L::splat(flow.edgewise);
+    let scale = (section.in_plane.length(section.through) + edgewise).values();
+    let is_still = scale.negligible(0.0);
+    if is_still.all() {
         return Ok(AnnulusInflow::zero());
     }
     let pitch = element.pitch + section.pitch;
-    let forward = if section.in_plane.value() < 0.0 {
-        -1.0
-    } else {
-        1.0
+    let forward = {
+        let is_reversed = section.in_plane.values().is_below(0.0);
+        L::select(is_reversed, L::constant(-1.0), L::unit())
     };
-    let strength = flow.rotation.abs() * element.blades * element.chord * forward / (4.0 * PI);
+    let strength = forward.times(element.chord)
+        * L::splat(flow.rotation.abs())
+        * (element.blades / (4.0 * PI));
     // v reduced by the ground, and the flow at the section with it: component through and speed.
-    let flow_with = |v: S| {
+    let flow_with = |v: L| {
         let axial = momentum
-            .at_the_blades(flow.edgewise, v, Induced::axial(v))
+            .at_the_annuli(flow.edgewise, Induced::axial(v))
             .axial;
         let through = section.through + section.flap_cos * axial;
-        (axial, through, section.in_plane.hypot(through))
+        (axial, through, section.in_plane.length(through))
     };
     // As in the annuli, the wake leaves with the air that takes up momentum.
-    let factor = |v: S, through: S, speed: S| {
-        let sine = if momentum.is_plain(section.through, v) {
-            through / speed
-        } else {
-            momentum.wake_sine_in_descent(section.through, through - section.through, speed)
-        };
+    let factor = |v: L, through: L, speed: L| {
+        let is_plain = momentum.is_plain(section.through, v);
+        let mut sine = through / speed;
+        if !is_plain.all() {
+            let induced = through - section.through;
+            let in_descent = momentum.wake_sine_in_descent(section.through, induced, speed);
+            sine = L::select(is_plain, sine, in_descent);
+        }
         element.tip_loss_factor(sine)
     };
-    let thrust = |v: S| {
+    let thrust = |v: L| {
         let (_, through, speed) = flow_with(v);
-        if speed.value() == 0.0 {
-            return S::zero();
-        }
         let alpha = pitch - through.atan2(section.in_plane);
         let lift = element.lift_coefficient(alpha, speed);
-        strength * speed * lift * section.flap_cos / factor(v, through, speed)
+        let thrust = strength * speed * lift * section.flap_cos / factor(v, through, speed);
+        L::select(speed.values().negligible(0.0), L::nil(), thrust)
     };
-    let mass_flow = |v: S| {
-        let momentum_work = momentum.descent.work(section.through, v);
-        element.work.count(1 + momentum_work);
-        momentum.descent.speed(flow.edgewise, section.through, v)
+    let mass_flow = |v: L| {
+        element.count_work();
+        element
+            .work
+            .count(momentum.descent.work_of(section.through, v));
+        momentum.descent.speeds(edgewise, section.through, v)
     };
+    let scale = L::Real::select(is_still, L::Real::unit(), scale);
     let v = uniform::mean_velocity(mass_flow, section.through, scale, thrust)?;
     let (axial, through, speed) = flow_with(v);
-    let share = if speed.value() == 0.0 {
-        S::one()
-    } else {
-        factor(v, through, speed)
-    };
+    let share = L::select(
+        speed.values().negligible(0.0),
+        L::unit(),
+        factor(v, through, speed),
+    );
     Ok(AnnulusInflow {
         induced: Induced::axial(axial),
         mean_axial: share * axial,

@@ -17,7 +17,7 @@
 //! Ours: heights below R/2 count as R/2. Neither model was tried there, and Cheeseman & Bennett's
 //! would become infinite. From z = 2 R to 3 R both fade out.
 
-use crate::scalar::{C, Scalar};
+use crate::numbers::{C, Scalar};
 
 /// The model of ground effect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

@@ -2,7 +2,7 @@
 //! v = v0 (1 + x (kx cos psi + ky sin psi)), x = r/R, psi from downwind. The coefficients are those
 //! collected in Leishman 2006, "Principles of Helicopter Aerodynamics", table 3.1; thesis table 5.
 
-use crate::scalar::{C, Scalar};
+use crate::numbers::{C, Scalar};
 use core::f64::consts::{PI, SQRT_2};
 
 /// How the induced velocity varies over the disc with the skew of the wake.

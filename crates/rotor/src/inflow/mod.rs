@@ -18,6 +18,7 @@ mod element_inflow;
 mod finite_blades;
 mod ground;
 mod linear;
+mod loads;
 mod momentum;
 mod peters_he;
 mod pitt_peters;
@@ -29,17 +30,18 @@ pub use dynamic::{DiscLoading, Stream};
 pub use element_inflow::ElementInflow;
 pub use ground::{Ground, GroundEffect};
 pub use linear::Skew;
+pub use loads::{AllElements, DiscLoads, Number};
 pub use momentum::Momentum;
 pub use peters_he::{MAX_ORDER, Wake};
 
 use super::{
-    disc::{AZIMUTHS, WindAxes},
-    element::Element,
+    disc::{OfPositions, WindAxes},
     error::SolveError,
     induced::{Field, Induced},
-    scalar::Scalar,
+    numbers::{LANES, Lanes, Scalar, converted},
     sweep::{InducedAt, Sweep},
 };
+use annulus::AnnulusInflow;
 use peters_he::Harmonics;
 
 /// Maximum number of states of an inflow model.
@@ -71,8 +73,7 @@ pub(crate) enum Induction<'a, S> {
     Series {
         wake: &'a Wake,
         states: InflowStates<S>,
-        /// One for each position.
-        harmonics: [Harmonics<S>; AZIMUTHS],
+        harmonics: OfPositions<Harmonics<S>>,
     },
 }
 
@@ -151,7 +152,7 @@ impl Inflow {
 
     /// What is induced at the blades; `states` in wind axes. Fails where the momentum equation has
     /// no solution.
-    pub(crate) fn induction<S: Scalar>(
+    pub(crate) fn induction<S: Number>(
         &self,
         disc: &Disc<S>,
         states: &InflowStates<S>,
@@ -165,10 +166,10 @@ impl Inflow {
                 Induction::Field(disc.momentum.at_the_blades(edgewise, field.mean, field))
             }
             Self::PetersHe(wake) => {
-                let mut harmonics = [Wake::harmonics(S::one(), S::zero()); AZIMUTHS];
-                for (slot, position) in harmonics.iter_mut().zip(disc.positions) {
-                    *slot = Wake::harmonics(position.azimuth.cos, position.azimuth.sin);
-                }
+                let positions = disc.positions.iter();
+                let harmonics = positions
+                    .map(|p| Wake::harmonics(p.azimuth.cos, p.azimuth.sin))
+                    .collect();
                 let mean = wake.mean(states);
                 let states = disc.momentum.at_the_blades(edgewise, mean, *states);
                 Induction::Series {
@@ -228,65 +229,86 @@ impl Inflow {
 }
 
 impl<S: Scalar> Induction<'_, S> {
-    /// Computes the loads of element `i`, which `sweep` moves around the azimuth. Returns the mean
-    /// induced velocity around its annulus, m/s.
-    pub(crate) fn load(
-        &self,
-        disc: &Disc<S>,
-        i: usize,
-        element: &Element<S>,
-        sweep: &mut Sweep<S>,
-    ) -> Result<S, SolveError> {
+    /// Number of states that the loading of the disc drives one by one.
+    pub(crate) fn loading_len(&self) -> usize {
         match self {
-            Self::Elements(model) => {
-                let load = model.load(disc, element, sweep);
-                load.map_err(|cause| SolveError::Annulus {
-                    radius_ratio: element.radius_ratio(),
-                    cause,
-                })
-            }
-            Self::Field(field) => {
-                sweep.load_in(InducedAt::Annulus, |_, position| {
-                    Ok(field.at(element.radius_ratio(), position.azimuth))
-                })?;
-                Ok(field.mean)
-            }
-            Self::Series {
-                wake,
-                states,
-                harmonics,
-            } => {
-                sweep.load_in(InducedAt::Annulus, |k, _| {
-                    Ok(Induced::axial(wake.velocity(states, i, &harmonics[k])))
-                })?;
-                Ok(wake.mean_at(states, i))
-            }
+            Self::Elements(_) | Self::Field(_) => 0,
+            Self::Series { wake, .. } => wake.len(),
         }
     }
 
-    /// Adds the thrust of element `i` to the loading that drives the states of a series.
-    pub(crate) fn add_loading(
+    /// Computes the loads of a block of elements, which `sweep` moves around the azimuth, and adds
+    /// their thrust to the loading that drives the states of a series. Returns the mean induced
+    /// velocity around its annuli, m/s.
+    #[inline(always)]
+    pub(crate) fn load<L: Lanes<One = S>>(
         &self,
         disc: &Disc<S>,
-        i: usize,
-        sweep: &Sweep<S>,
-        loading: &mut InflowStates<S>,
-    ) {
-        match self {
-            Self::Elements(_) | Self::Field(_) => {}
-            Self::Series {
+        sweep: &mut Sweep<L>,
+        loading: &mut [L],
+    ) -> Result<L, SolveError> {
+        let blades = sweep.blades;
+        let block = sweep.block.first / LANES;
+        let radius_ratio = sweep.element.radius_ratio();
+        let failed = |cause| SolveError::Annulus {
+            radius_ratio: radius_ratio.lane(0),
+            cause,
+        };
+        let (at, annuli, mut mean) = match self {
+            Self::Elements(ElementInflow::AnnulusClosedForm) => {
+                let solution = closed_form::find(disc, sweep.block, sweep.element);
+                let solution = solution.map_err(failed)?;
+                sweep.element.count_work();
+                sweep.take(&solution.load, solution.induced);
+                return Ok(solution.mean_induced);
+            }
+            Self::Elements(ElementInflow::Annulus) => {
+                let inflow = annulus::find(disc, sweep.block, sweep.element, blades);
+                let inflow = inflow.map_err(failed)?;
+                (InducedAt::Blade, inflow, inflow.mean_axial)
+            }
+            Self::Elements(ElementInflow::FiniteBlades) => {
+                (InducedAt::Blade, AnnulusInflow::zero(), L::nil())
+            }
+            Self::Field(field) => {
+                let mean = L::splat(field.mean);
+                (InducedAt::Annulus, AnnulusInflow::zero(), mean)
+            }
+            Self::Series { wake, states, .. } => {
+                let mean = wake.mean_at(states, block);
+                (InducedAt::Annulus, AnnulusInflow::zero(), mean)
+            }
+        };
+        // One place in the code that computes loads, which is long.
+        for (position, blade) in blades.iter().enumerate() {
+            let induced = match self {
+                Self::Elements(ElementInflow::FiniteBlades) => {
+                    let inflow = finite_blades::search(disc, sweep.block, blade);
+                    let inflow = inflow.map_err(failed)?;
+                    mean += converted::<_, L>(inflow.mean_axial) / blades.len() as f64;
+                    Induced::axial(converted(inflow.induced.axial))
+                }
+                Self::Elements(_) => annuli.at(blade.azimuth),
+                Self::Field(field) => field.at(radius_ratio, blade.azimuth),
+                Self::Series {
+                    wake,
+                    states,
+                    harmonics,
+                } => Induced::axial(wake.velocity(states, block, &harmonics[position])),
+            };
+            let thrust = sweep.load_at(position, at, induced);
+            if let Self::Series {
                 wake, harmonics, ..
-            } => {
+            } = self
+            {
                 let blade = &disc.blade;
                 let radius = blade.geometry.radius;
-                let blades = f64::from(blade.geometry.blades) / disc.positions.len() as f64;
-                let positions = sweep.thrust_at.iter().zip(harmonics);
-                for (thrust, harmonics) in positions.take(disc.positions.len()) {
-                    let force =
-                        *thrust * blades * blade.width() / (blade.air.density * (radius * radius));
-                    wake.add_load(loading, i, harmonics, force);
-                }
+                let share = f64::from(blade.geometry.blades) / blades.len() as f64;
+                let scale = S::constant(share * blade.width());
+                let force = thrust * L::splat(scale / (blade.air.density * (radius * radius)));
+                wake.add_load(loading, block, &harmonics[position], force);
             }
         }
+        Ok(mean)
     }
 }

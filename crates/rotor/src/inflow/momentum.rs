@@ -3,7 +3,7 @@
 use super::{Descent, DescentLaw, Ground, InflowStates};
 use crate::{
     induced::{Field, Induced},
-    scalar::Scalar,
+    numbers::{Lanes, Mask, Scalar},
 };
 
 /// Momentum theory in descent and near the ground.
@@ -47,24 +47,41 @@ impl<S: Scalar> Momentum<S> {
         far.scale(self.ground.factor(edgewise, mean))
     }
 
-    /// Whether the mass flow is that of momentum theory: in climb and hover with every model, in
+    /// The same for annuli side by side, from the velocity induced far from the ground.
+    #[inline(always)]
+    pub(crate) fn at_the_annuli<L: Lanes<One = S>>(
+        &self,
+        edgewise: S,
+        far: Induced<L>,
+    ) -> Induced<L> {
+        if self.ground.is_far() {
+            return far;
+        }
+        let factor = far.axial.each(|axial| self.ground.factor(edgewise, axial));
+        far.scaled(factor)
+    }
+
+    /// Where the mass flow is that of momentum theory: in climb and hover with every model, in
     /// descent only with `Descent::Momentum`. Only the sign of `induced` matters, so that the lift
     /// that induces it may be given instead.
-    pub(crate) fn is_plain(&self, climb: S, induced: S) -> bool {
+    #[inline(always)]
+    pub(crate) fn is_plain<L: Lanes<One = S>>(&self, climb: L, induced: L) -> L::Mask {
         match self.descent.model {
-            Descent::Momentum => true,
-            Descent::Measured | Descent::Johnson => (climb * induced).value() >= 0.0,
+            Descent::Momentum => L::Mask::all_lanes(true),
+            Descent::Measured | Descent::Johnson => !(climb * induced).values().is_below(0.0),
         }
     }
 
     /// Speed at which the wake leaves the disc, along the shaft, m/s: V_c + v where `is_plain`,
     /// either way, and V' in descent, which does not pass through 0.
-    pub(crate) fn wake_speed(&self, climb: S, induced: S) -> S {
-        if self.is_plain(climb, induced) {
-            climb + induced
-        } else {
-            self.descent.speed(S::zero(), climb, induced)
+    pub(crate) fn wake_speed<L: Lanes<One = S>>(&self, climb: L, induced: L) -> L {
+        let is_plain = self.is_plain(climb, induced);
+        let plain = climb + induced;
+        if is_plain.all() {
+            return plain;
         }
+        let speed = self.descent.speeds(L::nil(), climb, induced);
+        L::select(is_plain, plain, speed)
     }
 
     /// Sine of the angle at which the wake leaves the disc, for Prandtl's F, where `is_plain` is
@@ -72,12 +89,14 @@ impl<S: Scalar> Momentum<S> {
     /// rise to 1 in a narrow peak, and the momentum balance would have several roots.
     ///
     /// `climb` and `induced` (axial): m/s; `speed`: of the flow at the blade, m/s.
-    pub(crate) fn wake_sine_in_descent(&self, climb: S, induced: S, speed: S) -> S {
-        let leaves = self.descent.speed(S::zero(), climb, induced);
-        if leaves.value() < speed.value() {
-            leaves / speed
-        } else {
-            S::one()
-        }
+    pub(crate) fn wake_sine_in_descent<L: Lanes<One = S>>(
+        &self,
+        climb: L,
+        induced: L,
+        speed: L,
+    ) -> L {
+        let leaves = self.descent.speeds(L::nil(), climb, induced);
+        let is_flat = leaves.below(speed.values());
+        L::select(is_flat, leaves / speed, L::unit())
     }
 }

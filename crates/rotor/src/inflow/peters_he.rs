@@ -49,7 +49,7 @@
 use super::{descent::MassFlow, dynamic::Stream};
 use crate::{
     induced::Field,
-    scalar::{C, Scalar},
+    numbers::{C, LANES, Lanes, Plain, Scalar},
 };
 use core::f64::consts::PI;
 
@@ -84,8 +84,9 @@ pub struct Wake {
     indices: Vec<(usize, usize)>,
     /// Number of the cosines with m = 0, which have no sines.
     axial: usize,
-    /// phi at the blade elements, with all functions of an element side by side.
-    radial: Vec<f64>,
+    /// phi at blocks of blade elements, function by function in each block. The last block repeats
+    /// the last element.
+    radial: Vec<[f64; LANES]>,
     /// K of the cosines.
     mass: [f64; MAX_COSINES],
     /// Mean over the disc of the cosines with m = 0.
@@ -161,19 +162,22 @@ impl Wake {
         let indices: Vec<_> = harmonics
             .flat_map(|m| (m + 1..=order + 1).step_by(2).map(move |j| (m, j)))
             .collect();
-        let phi = |x: &f64| {
-            let x = *x;
-            indices.iter().map(move |(m, j)| {
-                let mut power = (0..*m).fold(1.0, |power, _| power * x);
-                let mut sum = 0.0;
-                for coefficient in phi_coefficients(*m, *j) {
-                    sum += coefficient * power;
-                    power *= x * x;
-                }
-                sum
-            })
+        let phi = |m: usize, j: usize, x: f64| {
+            let mut power = (0..m).fold(1.0, |power, _| power * x);
+            let mut sum = 0.0;
+            for coefficient in phi_coefficients(m, j) {
+                sum += coefficient * power;
+                power *= x * x;
+            }
+            sum
         };
-        let radial = radius_ratios.iter().flat_map(phi).collect();
+        let mut radial = Vec::new();
+        for block in radius_ratios.chunks(LANES) {
+            let x = |lane: usize| block[lane.min(block.len() - 1)];
+            for (m, j) in &indices {
+                radial.push(core::array::from_fn(|lane| phi(*m, *j, x(lane))));
+            }
+        }
         let axial = indices.iter().filter(|(m, _)| *m == 0).count();
         let mut mass = [0.0; MAX_COSINES];
         let mut means = [0.0; MAX_COSINES];
@@ -227,47 +231,57 @@ impl Wake {
         all
     }
 
-    /// The velocity induced at a blade element, positive down, m/s.
+    /// The velocity induced at a block of blade elements, positive down, m/s.
     ///
     /// * `states`: `len()` or more, m/s
-    /// * `element`: index into the radius ratios
-    pub fn velocity<S: Scalar>(&self, states: &[S], element: usize, harmonics: &Harmonics<S>) -> S {
-        let (axial, radial) = self.radial_at(element).split_at(self.axial);
+    /// * `block`: of four neighbouring radius ratios, by its index
+    #[inline(always)]
+    pub fn velocity<L: Lanes>(
+        &self,
+        states: &[L::One],
+        block: usize,
+        harmonics: &Harmonics<L::One>,
+    ) -> L {
+        let (axial, radial) = self.radial_at(block).split_at(self.axial);
         let (means, others) = states.split_at(self.axial);
         let (cosines, sines) = others.split_at(radial.len());
-        let mut velocity = S::zero();
+        let mut velocity = L::nil();
         for (phi, state) in axial.iter().zip(means) {
-            velocity += *state * *phi;
+            velocity += L::splat(*state).times(L::Real::load(phi));
         }
         let indices = &self.indices[self.axial..];
         for (((phi, cosine), sine), (m, _)) in radial.iter().zip(cosines).zip(sines).zip(indices) {
-            velocity += (*cosine * harmonics.cos[*m] + *sine * harmonics.sin[*m]) * *phi;
+            let wave = *cosine * harmonics.cos[*m] + *sine * harmonics.sin[*m];
+            velocity += L::splat(wave).times(L::Real::load(phi));
         }
         velocity
     }
 
-    /// Adds the load of a blade element at an azimuth to the loading tau, m2/s2; (92) to (94).
+    /// Adds the loads of a block of blade elements at an azimuth to the loading tau, m2/s2; (92) to
+    /// (94).
     ///
-    /// * `force`: thrust of the element over rho R^2, m2/s2; where the loads are averaged over the
+    /// * `force`: thrust of each element over rho R^2, m2/s2; where the loads are averaged over the
     ///   azimuth, its share of the mean
-    pub fn add_load<S: Scalar>(
+    #[inline(always)]
+    pub fn add_load<L: Lanes>(
         &self,
-        loading: &mut [S],
-        element: usize,
-        harmonics: &Harmonics<S>,
-        force: S,
+        loading: &mut [L],
+        block: usize,
+        harmonics: &Harmonics<L::One>,
+        force: L,
     ) {
-        let (axial, radial) = self.radial_at(element).split_at(self.axial);
+        let (axial, radial) = self.radial_at(block).split_at(self.axial);
         let (means, others) = loading.split_at_mut(self.axial);
         let (cosines, sines) = others.split_at_mut(radial.len());
         let force = force / PI;
         for (tau, phi) in means.iter_mut().zip(axial) {
-            *tau += C(0.5) * force * *phi;
+            *tau += (C(0.5) * force).times(L::Real::load(phi));
         }
         let indices = &self.indices[self.axial..];
         for (((phi, cosine), sine), (m, _)) in radial.iter().zip(cosines).zip(sines).zip(indices) {
-            *cosine += force * *phi * harmonics.cos[*m];
-            *sine += force * *phi * harmonics.sin[*m];
+            let part = force.times(L::Real::load(phi));
+            *cosine += part * L::splat(harmonics.cos[*m]);
+            *sine += part * L::splat(harmonics.sin[*m]);
         }
     }
 
@@ -353,10 +367,14 @@ impl Wake {
         means.iter().zip(states).map(|(mean, x)| *x * *mean).sum()
     }
 
-    /// Mean of v around the annulus of a blade element, m/s.
-    pub fn mean_at<S: Scalar>(&self, states: &[S], element: usize) -> S {
-        let axial = self.radial_at(element).iter().take(self.axial);
-        axial.zip(states).map(|(phi, state)| *state * *phi).sum()
+    /// Mean of v around the annuli of a block of blade elements, m/s.
+    #[inline(always)]
+    pub fn mean_at<L: Lanes>(&self, states: &[L::One], block: usize) -> L {
+        let mut mean = L::nil();
+        for (phi, state) in self.radial_at(block).iter().take(self.axial).zip(states) {
+            mean += L::splat(*state).times(L::Real::load(phi));
+        }
+        mean
     }
 
     /// Whether all azimuths are alike: each state of a harmonic m > 0 is at most `limit`, m/s.
@@ -379,9 +397,9 @@ impl Wake {
         states
     }
 
-    fn radial_at(&self, element: usize) -> &[f64] {
+    fn radial_at(&self, block: usize) -> &[[f64; LANES]] {
         let count = self.indices.len();
-        &self.radial[element * count..(element + 1) * count]
+        &self.radial[block * count..(block + 1) * count]
     }
 
     /// (78), (86), (87), with the mean over the disc for the induced velocity.

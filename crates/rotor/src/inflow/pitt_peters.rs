@@ -29,7 +29,7 @@ use super::{
 };
 use crate::{
     induced::Field,
-    scalar::{C, Scalar},
+    numbers::{C, Scalar},
 };
 use core::f64::consts::PI;
 
@@ -135,7 +135,7 @@ pub fn fastest_rate(stream: &Stream, induced: f64, solidity: f64, tip_speed: f64
 mod tests {
     use super::*;
     use crate::inflow::Descent;
-    use num_dual::Dual64;
+    use crate::numbers::Dual64;
 
     fn stream(edgewise: f64, climb: f64, radius: f64) -> Stream {
         Stream {
@@ -243,7 +243,7 @@ mod tests {
             let rate = rate(&stream, &field, &loading).cosine;
             let expected = -1.5 * 0.4 / (APPARENT_INERTIA * 2.0);
             assert_eq!(rate.re, 0.0);
-            assert!((rate.eps / expected - 1.0).abs() < 1e-12, "{rate}");
+            assert!((rate.eps / expected - 1.0).abs() < 1e-12, "{rate:?}");
         }
     }
 }

@@ -15,17 +15,28 @@
 //! the root beyond -V_c/2 is taken.
 
 use crate::{
+    numbers::{C, Equation, Lanes, Mask, Plain},
     root::{End, RootError, bracketed},
-    scalar::{C, Scalar},
 };
 
 /// Tolerance of the induced velocity, as a part of the largest speed in the problem.
 const TOLERANCE: f64 = 1e-13;
 
+/// The induced velocity is found where its last change is at most this part of the largest speed in
+/// the problem: what is left is some 1e-4 of it.
+const LAST_STEP: f64 = 1e-9;
+
+/// Bound on the lines that stand for the thrust; three or four are usual.
+const MAX_LINES: u32 = 8;
+
+/// Bound on the secants of the momentum equation, and the relative change that is rounding.
+const MAX_SECANTS: u32 = 30;
+const SECANT_ROUNDING: f64 = 1e-14;
+
 /// Bound on the doublings of the bracket; no finite speed needs more.
 const MAX_DOUBLINGS: u32 = 60;
 
-/// The mean induced velocity v0, positive down, m/s.
+/// The mean induced velocity v0, positive down, m/s, of a disc or of an annulus in each lane.
 ///
 /// * `mass_flow`: the speed V' of the air that takes up momentum, as a function of v0, m/s
 /// * `climb`: flow down through the disc without v0, any sign, m/s
@@ -36,47 +47,132 @@ const MAX_DOUBLINGS: u32 = 60;
 ///
 /// Where one of the functions is not finite, or where the two sides do not balance at any v0 within
 /// reach of finite speeds.
-pub fn mean_velocity<S: Scalar>(
-    mass_flow: impl Fn(S) -> S,
-    climb: S,
-    scale: f64,
-    thrust_per_density_area: impl Fn(S) -> S,
-) -> Result<S, RootError> {
-    let equation = |v: S| C(2.0) * v * mass_flow(v) - thrust_per_density_area(v);
-    let found = root(|v| equation(S::constant(v)).value(), climb.value(), scale)?;
-    Ok(S::at_root(found, equation))
+pub fn mean_velocity<L: Lanes>(
+    mass_flow: impl Fn(L) -> L,
+    climb: L,
+    scale: L::Real,
+    thrust_per_density_area: impl Fn(L) -> L,
+) -> Result<L, RootError> {
+    let balance = Balance(|v: L| C(2.0) * v * mass_flow(v) - thrust_per_density_area(v));
+    let mass_flow = |v: L::Real| mass_flow(L::real(v)).values();
+    let thrust = |v: L::Real| thrust_per_density_area(L::real(v)).values();
+    let found = match by_linear_thrust(mass_flow, thrust, climb.values(), scale) {
+        Some(found) => found,
+        None => root(
+            |v| balance.residual(L::real(v)).values(),
+            climb.values(),
+            scale,
+        )?,
+    };
+    Ok(L::at_roots(found, &balance))
+}
+
+/// The v0 of hover and climb, where the thrust falls steadily with the induced velocity; none
+/// where the thrust points against the climb, or if the search does not converge.
+///
+/// The thrust, which is expensive, is nearly linear in v0: momentum theory is solved for the line
+/// through its last two values.
+fn by_linear_thrust<V: Plain>(
+    mass_flow: impl Fn(V) -> V,
+    thrust: impl Fn(V) -> V,
+    climb: V,
+    scale: V,
+) -> Option<V> {
+    let mut last = (V::nil(), thrust(V::nil()));
+    let is_simple = !(last.1 * climb).is_below(0.0) & last.1.abs().is_above(0.0);
+    if !is_simple.all() {
+        return None;
+    }
+    // About half of the thrust is lost to the induced velocity.
+    let start = (last.1.abs() * 0.5).sqrt().with_sign_of(last.1);
+    let mut at = by_secants(|v| v * 2.0 * mass_flow(v) - last.1 * 0.5, start)?;
+    for _ in 0..MAX_LINES {
+        let here = thrust(at);
+        let slope = (here - last.1) / (at - last.0);
+        if !slope.is_below(0.0).all() {
+            return None;
+        }
+        let line = |v: V| here + slope * (v - at);
+        let next = by_secants(|v| v * 2.0 * mass_flow(v) - line(v), at)?;
+        let is_found = !(next - at).abs().above(scale * LAST_STEP);
+        (last, at) = ((at, here), next);
+        if is_found.all() {
+            return Some(at);
+        }
+    }
+    None
+}
+
+/// The root of a function near `start` by the secant method, in every lane; none if it does not
+/// converge.
+fn by_secants<V: Plain>(function: impl Fn(V) -> V, start: V) -> Option<V> {
+    let mut last = (start * 1.1, function(start * 1.1));
+    let mut at = start;
+    let mut is_found = !(start.abs().is_above(0.0));
+    for _ in 0..MAX_SECANTS {
+        let here = function(at);
+        let step = here * (at - last.0) / (here - last.1);
+        let is_exact = here.negligible(0.0);
+        is_found = is_found | is_exact;
+        last = (
+            V::select(is_found, last.0, at),
+            V::select(is_found, last.1, here),
+        );
+        at = V::select(is_found, at, at - step);
+        is_found = is_found | !step.abs().above(at.abs() * SECANT_ROUNDING);
+        if is_found.all() {
+            return at.negligible(f64::MAX).all().then_some(at);
+        }
+    }
+    None
+}
+
+/// The balance of momentum and thrust.
+struct Balance<F>(F);
+
+impl<L, F: Fn(L) -> L> Equation<L> for Balance<F> {
+    fn residual(&self, induced: L) -> L {
+        (self.0)(induced)
+    }
 }
 
 /// The v0 that solves `equation` at a climb, both in m/s.
-fn root(equation: impl Fn(f64) -> f64, climb: f64, scale: f64) -> Result<f64, RootError> {
-    let end = |at: f64| End {
+fn root<V: Plain>(equation: impl Fn(V) -> V, climb: V, scale: V) -> Result<V, RootError> {
+    let end = |at: V| End {
         at,
         residual: equation(at),
     };
-    let start = end(0.0);
-    if start.residual == 0.0 {
-        return Ok(0.0); // no thrust, nothing induced
+    let start = end(V::nil());
+    let is_nothing = start.residual.negligible(0.0); // no thrust, nothing induced
+    if is_nothing.all() {
+        return Ok(V::nil());
     }
-    let side = if start.residual < 0.0 { 1.0 } else { -1.0 };
-    let mut from = start;
-    if side * climb < 0.0 {
-        let windmill = end(-0.5 * climb);
-        if windmill.residual * side >= 0.0 {
-            return bracketed(equation, start, windmill, TOLERANCE * scale);
-        }
-        from = windmill;
+    let side = V::select(start.residual.is_below(0.0), V::splat(1.0), V::splat(-1.0));
+    let reached = |end: End<V>| !(end.residual * side).is_below(0.0);
+    let (mut from, mut to) = (start, start);
+    let mut is_closed = is_nothing;
+    let is_descent = (side * climb).is_below(0.0) & !is_nothing;
+    if is_descent.any() {
+        let windmill = end(climb * -0.5);
+        let is_windmill = is_descent & reached(windmill);
+        to = End::select(is_windmill, windmill, to);
+        is_closed = is_closed | is_windmill;
+        from = End::select(is_descent & !is_windmill, windmill, from);
     }
-    let mut step = 0.1 * side * scale;
+    let mut step = scale * 0.1 * side;
     for _ in 0..MAX_DOUBLINGS {
-        let to = end(from.at + step);
-        if !to.residual.is_finite() {
+        if is_closed.all() {
+            return bracketed(equation, from, to, scale * TOLERANCE);
+        }
+        let next = end(from.at + step);
+        if !(is_closed | next.residual.negligible(f64::MAX)).all() {
             return Err(RootError::NotFinite);
         }
-        if to.residual * side >= 0.0 {
-            return bracketed(equation, from, to, TOLERANCE * scale);
-        }
-        from = to;
-        step *= 2.0;
+        let closes = reached(next) & !is_closed;
+        to = End::select(closes, next, to);
+        is_closed = is_closed | closes;
+        from = End::select(is_closed, from, next);
+        step = step * 2.0;
     }
     Err(RootError::NoSignChange)
 }

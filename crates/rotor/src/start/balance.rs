@@ -6,12 +6,14 @@ use crate::{
     error::SolveError,
     evaluation::Evaluation,
     flapping::Freedom,
+    inflow::Number,
     lift_end::disc_loads,
+    numbers::Scalar,
     operating_point::OperatingPoint,
     root::{self, End},
     rotor::Rotor,
-    scalar::Scalar,
     state::State,
+    sweep::Wanted,
     workspace::Workspace,
 };
 use core::f64::consts::FRAC_PI_2;
@@ -30,7 +32,7 @@ const MAX_COMPUTATIONS: usize = 20;
 /// The moment of the air is computed again at the angles that balance the last one, until they
 /// stay. They always do on a stop, which is far stiffer than the air; where they do not, the last
 /// angles are the result. Fails if the loads cannot be computed.
-pub(super) fn find<S: Scalar>(
+pub(super) fn find<S: Number>(
     rotor: &Rotor,
     point: &OperatingPoint<S>,
     state: &State<S>,
@@ -39,7 +41,7 @@ pub(super) fn find<S: Scalar>(
     let mut balanced = without_air(rotor, point, state);
     for _ in 0..MAX_COMPUTATIONS {
         let evaluation = rotor.evaluate(point, &balanced);
-        let moments = disc_loads(&evaluation, workspace)?.hinge_moments;
+        let moments = disc_loads(&evaluation, workspace, Wanted::Sums)?.hinge_moments;
         let next = under(&evaluation, &moments);
         let flaps = next.flaps.iter().zip(&balanced.flaps);
         let change = flaps.map(|(a, b)| (a.angle - b.angle).value().abs());

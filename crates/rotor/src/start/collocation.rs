@@ -7,13 +7,13 @@
 //! their flapping. The inflow repeats itself in each blade passage.
 
 use super::unknowns::Unknowns;
+use crate::numbers::Dual64;
 use crate::{
-    error::SolveError, operating_point::OperatingPoint, rotor::Rotor, scalar::Scalar, state::State,
+    error::SolveError, inflow::Number, operating_point::OperatingPoint, rotor::Rotor, state::State,
     work::Work, workspace::Workspace,
 };
 use core::f64::consts::PI;
 use nalgebra::{DMatrix, DVector};
-use num_dual::Dual64;
 
 /// Minimum number of azimuths in a revolution, which resolves 11 harmonics.
 const MIN_AZIMUTHS: usize = 24;
@@ -157,7 +157,7 @@ impl<'a> Collocation<'a> {
 
     /// Rates at a node over Omega: of the inflow states in their scale, and the accelerations of
     /// the blades over Omega^2.
-    fn rates<S: Scalar>(
+    fn rates<S: Number>(
         &self,
         point: &OperatingPoint<S>,
         there: &DVector<S>,

@@ -16,9 +16,9 @@ use super::{
     state::State,
     workspace::Workspace,
 };
+use crate::numbers::Dual64;
 use collocation::Collocation;
 use core::f64::consts::PI;
-use num_dual::Dual64;
 use unknowns::Unknowns;
 
 /// How a rotor starts.

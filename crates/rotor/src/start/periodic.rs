@@ -5,8 +5,8 @@
 
 use super::{TOLERANCE, unknowns::Unknowns};
 use crate::{
-    error::SolveError, newton, operating_point::OperatingPoint, rotor::Rotor, scalar::Scalar,
-    state::State, workspace::Workspace,
+    error::SolveError, inflow::Number, newton, numbers::Scalar, operating_point::OperatingPoint,
+    rotor::Rotor, state::State, workspace::Workspace,
 };
 use core::f64::consts::PI;
 use nalgebra::DVector;
@@ -135,7 +135,7 @@ fn cost(rotor: &Rotor) -> f64 {
 
 /// The state after a blade passage, with the blades renumbered so that it equals `state` if that is
 /// periodic.
-pub(super) fn after_passage<S: Scalar>(
+pub(super) fn after_passage<S: Number>(
     rotor: &Rotor,
     point: &OperatingPoint<S>,
     state: &State<S>,

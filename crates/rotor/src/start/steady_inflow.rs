@@ -3,14 +3,15 @@
 use super::{TOLERANCE, unknowns::Unknowns};
 use crate::{
     error::SolveError,
+    inflow::Number,
     inflow::{InflowStates, Skew},
     lift_end::disc_loads,
     newton,
     operating_point::OperatingPoint,
     rates,
     rotor::Rotor,
-    scalar::Scalar,
     state::State,
+    sweep::Wanted,
     workspace::Workspace,
 };
 use nalgebra::DVector;
@@ -44,7 +45,14 @@ pub(super) fn find(
     // The search starts from the static inflow model: the slopes of the field, which are 0 in axial
     // symmetry, then have their order of magnitude in edgewise flow.
     workspace.prepare(rotor);
-    let disc = evaluation.disc(&workspace.lifting_shares, &workspace.work);
+    let blade_flows = evaluation.blade_flows();
+    let Workspace {
+        lifting_shares,
+        work,
+        width,
+        ..
+    } = workspace;
+    let disc = evaluation.disc(lifting_shares, work, &blade_flows, *width);
     let field = disc.momentum_field(Skew::PittPeters)?;
     let guess = State {
         inflow: inflow.first_guess(&field.out_of_wind(&evaluation.axes)),
@@ -72,13 +80,13 @@ pub(super) fn find(
 }
 
 /// Rates of the states, averaged over one revolution.
-pub(super) fn rates<S: Scalar>(
+pub(super) fn rates<S: Number>(
     rotor: &Rotor,
     point: &OperatingPoint<S>,
     state: &State<S>,
     workspace: &mut Workspace<S>,
 ) -> Result<State<S>, SolveError> {
     let evaluation = rotor.evaluate_as_disc(point, state);
-    let loads = disc_loads(&evaluation, workspace)?;
+    let loads = disc_loads(&evaluation, workspace, Wanted::Sums)?;
     Ok(rates::of(&evaluation, &loads))
 }

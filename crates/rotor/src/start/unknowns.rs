@@ -1,7 +1,7 @@
 //! The states as unknowns of order 1, for Newton's method.
 
 use crate::{
-    disc::Flap, operating_point::OperatingPoint, rotor::Rotor, scalar::Scalar, state::State,
+    disc::Flap, numbers::Scalar, operating_point::OperatingPoint, rotor::Rotor, state::State,
 };
 use nalgebra::DVector;
 

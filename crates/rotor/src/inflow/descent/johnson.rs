@@ -14,8 +14,8 @@
 //! Braunschweig, which cites the pages.)
 
 use crate::{
+    numbers::{C, Scalar},
     root::{End, RootError, bracketed},
-    scalar::{C, Scalar},
 };
 
 // Baseline, p. 24.

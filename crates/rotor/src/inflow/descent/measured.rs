@@ -20,7 +20,7 @@
 //! Edgewise flow. No measurements in it are fitted: v g(k) replaces V_c + v in Glauert's resultant,
 //! in which either matters less the faster the edgewise flow.
 
-use crate::scalar::{C, Scalar};
+use crate::numbers::{C, Scalar};
 
 /// k, g0, dg0/dk.
 const KNOTS: [(f64, f64, f64); 11] = [
@@ -106,7 +106,7 @@ fn unstretched<S: Scalar>(ratio: S) -> (S, S) {
 #[allow(clippy::disallowed_methods)] // the expectations are independent of libm
 mod tests {
     use super::{super::thrust_radius::STRETCHES, *};
-    use num_dual::Dual64;
+    use crate::numbers::Dual64;
 
     /// The limits of s and some between.
     fn stretches() -> impl Iterator<Item = f64> {

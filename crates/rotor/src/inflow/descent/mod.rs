@@ -22,7 +22,7 @@ mod thrust_radius;
 
 pub use thrust_radius::ThrustRadius;
 
-use crate::scalar::{C, Scalar};
+use crate::numbers::{C, Lanes, Mask, Scalar};
 
 /// The model of the mass flow in descent.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -109,6 +109,19 @@ impl<S: Scalar> DescentLaw<S> {
         }
     }
 
+    /// V' in each lane.
+    pub(crate) fn speeds<L: Lanes<One = S>>(&self, edgewise: L, climb: L, induced: L) -> L {
+        let is_descent = (climb * induced).values().is_below(0.0);
+        match self.model {
+            Descent::Measured | Descent::Johnson if is_descent.any() => L::from_lanes(|lane| {
+                self.speed(edgewise.lane(lane), climb.lane(lane), induced.lane(lane))
+            }),
+            Descent::Momentum | Descent::Measured | Descent::Johnson => {
+                edgewise.length(climb + induced)
+            }
+        }
+    }
+
     /// How many computations of a section's loads cost as much as one of V', at the flows that
     /// [`DescentLaw::speed`] takes: measured, rounded up.
     pub(crate) fn work(&self, climb: S, induced: S) -> u64 {
@@ -118,6 +131,13 @@ impl<S: Scalar> DescentLaw<S> {
             Descent::Johnson if (climb * induced).value() < 0.0 => 40,
             Descent::Johnson => 0,
         }
+    }
+
+    /// The same for all lanes.
+    pub(crate) fn work_of<L: Lanes<One = S>>(&self, climb: L, induced: L) -> u64 {
+        (0..L::COUNT)
+            .map(|lane| self.work(climb.lane(lane), induced.lane(lane)))
+            .sum()
     }
 
     /// V' and its slope, at the flows that [`DescentLaw::speed`] takes.

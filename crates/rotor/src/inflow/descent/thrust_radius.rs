@@ -27,7 +27,7 @@
 use super::measured::smooth_step;
 use crate::{
     geometry::{Elements, Geometry},
-    scalar::{C, Scalar},
+    numbers::{C, Scalar},
 };
 use core::f64::consts::PI;
 
@@ -127,7 +127,7 @@ impl ThrustRadius {
 #[allow(clippy::disallowed_methods)] // the expectations are independent of libm
 mod tests {
     use super::*;
-    use num_dual::Dual64;
+    use crate::numbers::Dual64;
 
     const TIP_SPEED: f64 = 115.0;
 

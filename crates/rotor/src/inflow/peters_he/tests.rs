@@ -4,6 +4,7 @@ use super::super::pitt_peters::{self, Loading};
 use super::*;
 use crate::disc::WindAxes;
 use crate::inflow::Descent;
+use crate::numbers::Portable;
 use nalgebra::DMatrix;
 
 const SKEWS: [f64; 5] = [0.0, 0.3, 0.7, 0.95, 1.0];
@@ -23,6 +24,23 @@ fn integral(of: impl Fn(f64) -> f64) -> f64 {
         weight * of(angle.sin()) * angle.cos()
     };
     (0..=intervals).map(at).sum::<f64>() * step / 3.0
+}
+
+/// The velocity induced at one element, m/s.
+fn velocity(wake: &Wake, states: &[f64], element: usize, harmonics: &Harmonics) -> f64 {
+    let block = wake.velocity::<Portable>(states, element / LANES, harmonics);
+    block.lane(element % LANES)
+}
+
+/// Adds the load of one element.
+fn add_load(wake: &Wake, loading: &mut [f64], element: usize, harmonics: &Harmonics, force: f64) {
+    let mut block = [Portable::nil(); MAX_STATES];
+    let in_lane = |lane: usize| if lane == element % LANES { force } else { 0.0 };
+    let force = Portable::from_lanes(in_lane);
+    wake.add_load(&mut block, element / LANES, harmonics, force);
+    for (sum, added) in loading.iter_mut().zip(block) {
+        *sum += added.sum_of_lanes();
+    }
 }
 
 fn phi(m: usize, j: usize, x: f64) -> f64 {
@@ -352,7 +370,7 @@ fn start_in_still_air_is_that_of_pitt_and_peters() {
         for (psi, force) in [(0.3_f64, 2.0), (2.0, -0.7), (4.0, 5.0)] {
             let force = force * (element + 1) as f64;
             let harmonics = Wake::harmonics(psi.cos(), psi.sin());
-            wake.add_load(&mut loading, element, &harmonics, force);
+            add_load(&wake, &mut loading, element, &harmonics, force);
             sums.thrust += force / PI;
             sums.cosine += force / PI * x * psi.cos();
             sums.sine += force / PI * x * psi.sin();
@@ -395,8 +413,8 @@ fn turned_axes() {
         let psi = psi - sin.atan2(cos);
         let after = Wake::harmonics(psi.cos(), psi.sin());
         for element in 0..2 {
-            let change = wake.velocity(&states, element, &before)
-                - wake.velocity(&turned[..wake.len()], element, &after);
+            let change = velocity(&wake, &states, element, &before)
+                - velocity(&wake, &turned[..wake.len()], element, &after);
             assert!(change.abs() < 1e-12, "{change}");
         }
     }
@@ -427,15 +445,15 @@ fn velocity_at_an_element() {
                 expected += phi(*m, *j, 0.7) * sines[i - wake.axial] * angle.sin();
             }
         }
-        let found = wake.velocity(&states, 1, &harmonics);
+        let found = velocity(&wake, &states, 1, &harmonics);
         assert!((found - expected).abs() < 1e-13, "{found} {expected}");
     }
     let around = |i: usize| {
         let psi = i as f64 * PI / 6.0;
-        wake.velocity(&states, 1, &Wake::harmonics(psi.cos(), psi.sin()))
+        velocity(&wake, &states, 1, &Wake::harmonics(psi.cos(), psi.sin()))
     };
     let mean = (0..12).map(around).sum::<f64>() / 12.0;
-    let found = wake.velocity(&states, 1, &Wake::harmonics(0.0, 0.0));
+    let found = velocity(&wake, &states, 1, &Wake::harmonics(0.0, 0.0));
     assert!((found - mean).abs() < 1e-13);
     let disc = integral(|x| {
         let functions = wake.indices[..wake.axial].iter().zip(&states);
@@ -544,10 +562,10 @@ fn fastest_rate_bounds_the_modes() {
                         let harmonics = Wake::harmonics(psi.cos(), psi.sin());
                         for (element, x) in ratios.iter().enumerate() {
                             let speed = tip_speed * x + edgewise * psi.sin();
-                            let v = wake.velocity(states, element, &harmonics) - mean;
+                            let v = velocity(&wake, states, element, &harmonics) - mean;
                             let lift = -PI * speed.abs() * v * blades;
                             let area = solidity * PI / 40.0 / azimuths as f64;
-                            wake.add_load(&mut loading, element, &harmonics, lift * area);
+                            add_load(&wake, &mut loading, element, &harmonics, lift * area);
                         }
                     }
                     let mut rates = vec![0.0; count];

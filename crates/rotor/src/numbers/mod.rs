@@ -1,0 +1,41 @@
+//! Numbers side by side: one source text for one number and for four, plain or dual.
+//!
+//! The formulas of a blade element are the same for every element, so they are written once for
+//! any [`Lanes`]: a single number, or four neighbouring elements at a time in the registers of the
+//! processor. Each lane is computed by the same operations in the same order, without fused
+//! multiply-add, and sums over lanes have a fixed order of four. So the bits of an answer do not
+//! depend on the processor:
+//!
+//! ```text
+//! f64                   one number: the definition
+//! Pair<Pair<f64>>       four, one by one: any processor
+//! Pair<Sse2>            four in two registers: every x86-64
+//! Avx2                  four in one register: chosen at run time
+//! ```
+//!
+//! A branch becomes a choice between two values that are both computed ([`Lanes::select`]). Where
+//! an expensive part is needed in few flows, it is left out if no lane needs it.
+//!
+//! Functions of lanes are `#[inline(always)]`: only then does the compiler use the wide registers
+//! of the caller, which [`run()`] chooses.
+//!
+//! Outside of the elements numbers come one by one: a [`Scalar`].
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+mod constant;
+mod dual;
+mod elementary;
+mod lanes;
+mod one;
+mod pair;
+mod run;
+mod scalar;
+#[cfg(target_arch = "x86_64")]
+mod sse2;
+
+pub use constant::C;
+pub use dual::{Dual, Dual64};
+pub use lanes::{Equation, LANES, Lanes, Mask, PerLane, Plain, converted, in_lanes, per_lane};
+pub use run::{Kernel, Portable, Width, run};
+pub use scalar::Scalar;
