@@ -1,0 +1,126 @@
+"""Counts the instructions of each row in benches/instructions.rs, in the widest lanes and in those that every processor has.
+
+    python3 benches/instructions.py            compares with benches/instructions.csv: fails if a row costs over 5 % more
+    python3 benches/instructions.py --record   writes benches/instructions.csv and the table in docs/performance.md
+
+Needs valgrind, and gungraun-runner on the path (cargo install gungraun-runner).
+"""
+
+import argparse
+import csv
+import json
+import os
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+RECORD = ROOT / "benches" / "instructions.csv"
+PAGE = ROOT / "docs" / "performance.md"
+BEGIN, END = "<!-- instructions -->\n", "<!-- end of instructions -->\n"
+TOLERANCE = 1.05
+
+# What each row is, in the order of the table.
+ROWS = {
+    "hover_step annulus": "hover, annuli, 40 elements: set 3, step, get 6",
+    "hover_step closed_form": "the same by the closed form",
+    "azimuth_step pitt_peters": "azimuth step, 4 flapping blades x 40 elements, Pitt & Peters",
+    "azimuth_step peters_he": "the same with Peters & He's wake",
+    "azimuth_step uniform": "the same in uniform static inflow",
+    "azimuth_step annulus": "the same in annuli",
+    "azimuth_step finite_blades": "the same, each blade in its own air",
+    "azimuth_step prandtl_thrust": "with Pitt & Peters, and lift that ends by the thrust",
+    "descent_step annulus_measured": "descent at 4 m/s, annuli, measured mass flow",
+    "descent_step annulus_johnson": "the same by Johnson's vortex ring model",
+    "start default": "start in hover, annuli",
+    "start twelve_layers": "the same with polars for 12 Reynolds numbers",
+    "start flapping_pitt_peters": "periodic start, flapping, Pitt & Peters",
+    "start flapping_uniform": "the same in uniform static inflow",
+    "derivative hover": "one directional derivative in hover, annuli",
+    "derivative pitt_peters": "the same at the periodic start",
+    "hover_step four_elements": "a step of four elements: the fixed part",
+    "set_3_and_get_6 annulus": "set 3 and get 6 alone",
+}
+
+
+def counted(portable: bool) -> dict[str, int]:
+    """The instructions of each row."""
+    command = ["cargo", "bench", "--bench", "instructions"]
+    if portable:
+        command += ["--features", "portable"]
+    command += ["--", "--save-summary=json", "--nocapture=false"]
+    home = ROOT / "target" / "gungraun"
+    for summary in home.rglob("summary.json"):
+        summary.unlink()
+    environment = os.environ | {"GUNGRAUN_HOME": str(home)}
+    subprocess.run(command, cwd=ROOT, env=environment, check=True, stdout=subprocess.DEVNULL)
+    counts = {}
+    for file in home.rglob("summary.json"):
+        summary = json.loads(file.read_text())
+        row = f"{summary['module_path'].split('::')[-1]} {summary['id']}"
+        counts[row] = instructions(summary)
+    missing = ROWS.keys() - counts.keys()
+    if missing:
+        sys.exit(f"benches/instructions.rs gave no count for: {', '.join(sorted(missing))}")
+    return counts
+
+
+def instructions(summary: dict) -> int:
+    """The executed instructions in a summary of one row."""
+    for profile in summary["profiles"]:
+        metrics = profile["summaries"]["total"]["summary"].get("Callgrind")
+        if metrics:
+            value = metrics["Ir"]["metrics"]
+            newest = value.get("Left") or value["Both"][0]
+            return newest.get("Int", newest) if isinstance(newest, dict) else newest
+    sys.exit("a summary has no callgrind counts")
+
+
+def table(counts: dict[str, tuple[int, int]]) -> str:
+    """The counts as a table."""
+    lines = ["| | widest lanes | every processor |", "|---|---:|---:|"]
+    lines += [f"| {text} | {counts[row][0]:,} | {counts[row][1]:,} |" for row, text in ROWS.items()]
+    return "\n".join(lines) + "\n"
+
+
+def replace(file: pathlib.Path, text: str) -> None:
+    """Writes a file, to a temporary name first."""
+    draft = file.with_name(file.name + ".new")
+    draft.write_text(text)
+    draft.replace(file)
+
+
+def record(counts: dict[str, tuple[int, int]]) -> None:
+    """Keeps the counts."""
+    lines = ["row,widest,portable"] + [f"{row},{a},{b}" for row, (a, b) in counts.items()]
+    replace(RECORD, "\n".join(lines) + "\n")
+    before, rest = PAGE.read_text().split(BEGIN)
+    replace(PAGE, before + BEGIN + "\n" + table(counts) + "\n" + END + rest.split(END)[1])
+
+
+def compare(counts: dict[str, tuple[int, int]]) -> None:
+    """Fails if a row costs more than recorded."""
+    known = {line["row"]: line for line in csv.DictReader(RECORD.read_text().splitlines())}
+    slower = []
+    for row, pair in counts.items():
+        for name, count in zip(("widest", "portable"), pair):
+            limit = int(known[row][name])
+            print(f"{row:34} {name:9} {count:12,} {count / limit:7.3f} of the recorded count")
+            if count > TOLERANCE * limit:
+                slower.append(f"{row} ({name}): {count:,} instead of {limit:,}")
+    if slower:
+        sys.exit("These rows cost over 5 % more instructions than recorded:\n" + "\n".join(slower))
+
+
+def main() -> None:
+    """Counts, and records or compares."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--record", action="store_true", help="keep the counts as the recorded ones")
+    asked = parser.parse_args()
+    widest, portable = counted(portable=False), counted(portable=True)
+    counts = {row: (widest[row], portable[row]) for row in ROWS}
+    (record if asked.record else compare)(counts)
+
+
+if __name__ == "__main__":
+    main()
