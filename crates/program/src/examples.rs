@@ -1,4 +1,5 @@
-//! Runs the examples of fmu-examples/, each as a user runs it: `python SCRIPT --fmu FMU --out FOLDER`.
+//! Runs the examples of fmu-examples/, each as a user runs it: `python SCRIPT --fmu FMU --out
+//! FOLDER`.
 
 use crate::{Failure, failed, files, output, process, progress, python, scripts, stop};
 use std::{

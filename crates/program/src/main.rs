@@ -58,7 +58,7 @@ enum Command {
         /// Run only these
         #[arg(value_name = "NAME", value_parser = PossibleValuesParser::new(examples::names()))]
         names: Vec<String>,
-        /// Folder for the .fmu and the results, a folder for each example [default: target/examples]
+        /// Folder for the .fmu and the results, one for each example [default: target/examples]
         #[arg(long, value_name = "FOLDER")]
         out: Option<PathBuf>,
     },
