@@ -13,7 +13,7 @@ pub fn resources(location: Option<&str>) -> PathBuf {
     let ours = given.filter(|path| path.join(AIRFOILS).is_dir());
     if let Some(folder) = ours {
         // Made absolute, so that it stays the same folder if the importer changes the current one.
-        return folder.canonicalize().unwrap_or(folder);
+        return std::path::absolute(&folder).unwrap_or(folder);
     }
     let beside = library_file().and_then(|file| {
         let unpacked = file.parent()?.parent()?.parent()?;
