@@ -26,6 +26,27 @@ const SCRIPTS: [&str; 4] = [
     "provenance/descent-law",
 ];
 
+/// The interpreter in an environment.
+const INTERPRETER: &str = match cfg!(windows) {
+    true => "Scripts/python.exe",
+    false => "bin/python",
+};
+
+/// The commands that start an interpreter, the best first. On Windows `python3` is often no
+/// interpreter, but opens a shop.
+const INTERPRETERS: &[&[&str]] = match cfg!(windows) {
+    true => &[&["py", "-3"], &["python"], &["python3"]],
+    false => &[&["python3"]],
+};
+
+/// What to do where Python makes no environment.
+const NO_VENV: &str = match cfg!(target_os = "linux") {
+    true => {
+        "cannot make a Python environment; on Debian or Ubuntu, install the package python3-venv"
+    }
+    false => "cannot make a Python environment; install or repair Python",
+};
+
 /// How long an interpreter may take to say its version.
 const LIMIT_OF_VERSION: Duration = Duration::from_secs(20);
 /// To import the packages, also from a slow disk on which they have just been installed.
@@ -82,7 +103,7 @@ struct Environment {
 impl Environment {
     fn new(folder: PathBuf, requirements: PathBuf, scripts: Vec<PathBuf>) -> Environment {
         Environment {
-            interpreter: folder.join("bin").join("python"),
+            interpreter: folder.join(INTERPRETER),
             installed: folder.join("requirements.txt"),
             folder,
             requirements,
@@ -169,10 +190,9 @@ impl Environment {
             fs::remove_dir_all(&self.folder)
                 .map_err(failed(format!("cannot replace {}", self.folder.display())))?;
         }
-        let mut venv = Command::new(python);
-        process::run_quietly(venv.args(["-m", "venv"]).arg(&self.folder), LIMIT_OF_VENV).map_err(
-            failed("cannot make a Python environment; on Debian or Ubuntu, install the package python3-venv"),
-        )?;
+        let mut venv = command(python);
+        process::run_quietly(venv.args(["-m", "venv"]).arg(&self.folder), LIMIT_OF_VENV)
+            .map_err(failed(NO_VENV))?;
         spinner.finish_and_clear();
         self.install(&[])
     }
@@ -201,21 +221,43 @@ fn spinner(message: &'static str) -> ProgressBar {
     spinner
 }
 
-/// The name of an interpreter of version 3.10 or later.
-fn system_python() -> Result<&'static str, Failure> {
-    const NEEDED: &str = "python3 (3.10 or later) is needed, in which FMPy flies the FMU";
+/// The command of an interpreter of version 3.10 or later. If there is none, the error is that of
+/// the best.
+fn system_python() -> Result<&'static [&'static str], Failure> {
+    let mut first_failure = None;
+    for interpreter in INTERPRETERS {
+        match check_version(interpreter) {
+            Ok(()) => return Ok(interpreter),
+            Err(failure) => {
+                stop::check()?;
+                first_failure.get_or_insert(failure);
+            }
+        }
+    }
+    Err(first_failure.unwrap_or_else(|| Failure(NEEDED.into())))
+}
+
+const NEEDED: &str = "python3 (3.10 or later) is needed, in which FMPy flies the FMU";
+
+fn check_version(interpreter: &[&str]) -> Result<(), Failure> {
     let check = "import sys; print(sys.version.split()[0]); sys.exit(sys.version_info < (3, 10))";
-    let mut command = Command::new("python3");
+    let mut command = command(interpreter);
     command.args(["-c", check]).stderr(Stdio::piped());
     let (status, version, errors) =
         process::output(&mut command, LIMIT_OF_VERSION).map_err(failed(format!(
             "{NEEDED}; install or repair the one on the PATH and run this again"
         )))?;
     if status.success() {
-        return Ok("python3");
+        return Ok(());
     }
     Err(Failure(format!(
         "{NEEDED}; the one on the PATH is {}; install a later one and run this again",
         (version + &errors).trim()
     )))
+}
+
+fn command(words: &[&str]) -> Command {
+    let mut command = Command::new(words.first().unwrap_or(&"python3"));
+    command.args(words.iter().skip(1));
+    command
 }
