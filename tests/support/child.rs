@@ -6,6 +6,9 @@ use std::{
     process::{Command, Output},
 };
 
+/// The command, if any, by which an emulator runs these tests: the system cannot start a child
+/// without it.
+const EMULATOR: &str = "HELICOPTER_ROTOR_EMULATOR";
 const CHILD: &str = "HELICOPTER_ROTOR_CHILD";
 /// Printed before and after the part of a child that must print nothing.
 const MARK: &str = "<the part that is watched>";
@@ -28,7 +31,13 @@ fn run_with(name: &str, prepare: impl FnOnce(&mut Command)) -> Option<Printed> {
     if std::env::var_os(CHILD).is_some() {
         return None;
     }
-    let mut command = Command::new(std::env::current_exe().unwrap());
+    let tests = std::env::current_exe().unwrap();
+    let mut command = Command::new(&tests);
+    if let Ok(emulator) = std::env::var(EMULATOR) {
+        let mut words = emulator.split_whitespace();
+        command = Command::new(words.next().unwrap());
+        command.args(words).arg(&tests);
+    }
     command
         .args(["--exact", name, "--nocapture", "--test-threads=1"])
         .env(CHILD, "1")

@@ -18,7 +18,7 @@ pub fn scratch() -> &'static Path {
     FOLDER.get_or_init(|| {
         let all = Path::new(env!("CARGO_TARGET_TMPDIR"));
         let prefix = concat!(env!("CARGO_CRATE_NAME"), "-");
-        if Path::new("/proc/self").exists() {
+        if cfg!(target_os = "linux") {
             for entry in fs::read_dir(all).into_iter().flatten().flatten() {
                 let name = entry.file_name().to_string_lossy().into_owned();
                 let process = name
@@ -32,7 +32,8 @@ pub fn scratch() -> &'static Path {
         }
         let folder = all.join(format!("{prefix}{}", std::process::id()));
         fs::create_dir_all(&folder).unwrap();
-        folder
+        // With the drive, on Windows.
+        std::path::absolute(folder).unwrap()
     })
 }
 
@@ -42,9 +43,22 @@ fn library() -> PathBuf {
     tests.with_file_name(format!("{DLL_PREFIX}helicopter_rotor{DLL_SUFFIX}"))
 }
 
+/// The folder of this platform in an FMU.
+pub fn platform() -> &'static str {
+    use std::env::consts::{ARCH, OS};
+    match (OS, ARCH) {
+        ("linux", "x86_64") => "linux64",
+        ("windows", "x86_64") => "win64",
+        ("macos", "x86_64") => "darwin64",
+        ("linux", "aarch64") => "aarch64-linux",
+        ("macos", "aarch64") => "aarch64-darwin",
+        _ => panic!("an FMU has no folder for {OS} on {ARCH}"),
+    }
+}
+
 /// Lays the FMU out in a folder as it is when an importer has unpacked it.
 pub fn unpack_into(folder: &Path) {
-    let binaries = folder.join("binaries/linux64");
+    let binaries = folder.join("binaries").join(platform());
     fs::create_dir_all(&binaries).unwrap();
     let binary = binaries.join(format!("{MODEL_IDENTIFIER}{DLL_SUFFIX}"));
     fs::copy(library(), binary).unwrap();
@@ -66,11 +80,16 @@ fn copy_folder(from: &Path, to: &Path) {
     }
 }
 
-/// The `file:` URI of a path, with everything percent-encoded but letters, digits, `/`, `-` and
-/// `.`.
+/// The `file:` URI of an absolute path, with everything percent-encoded but letters, digits, `/`,
+/// `-` and `.`.
 pub fn uri(path: &Path) -> String {
+    let mut path = path.to_str().unwrap().to_owned();
+    if cfg!(windows) {
+        // A path begins with a slash, also before a drive.
+        path = format!("/{}", path.replace('\\', "/"));
+    }
     let mut uri = "file://".to_owned();
-    for byte in path.to_str().unwrap().bytes() {
+    for byte in path.bytes() {
         if byte.is_ascii_alphanumeric() || b"/-.".contains(&byte) {
             uri.push(byte.into());
         } else {
@@ -131,17 +150,8 @@ impl Fmu {
     }
 }
 
-/// The shared library in an unpacked FMU: the one file in its `binaries/<platform>/`.
+/// The shared library for this platform in an unpacked FMU.
 pub fn binary(folder: &Path) -> PathBuf {
-    let only = |folder: &Path| {
-        let mut entries = fs::read_dir(folder).unwrap();
-        let first = entries.next().unwrap().unwrap().path();
-        assert!(
-            entries.next().is_none(),
-            "more than one file in {}",
-            folder.display()
-        );
-        first
-    };
-    only(&only(&folder.join("binaries")))
+    let binaries = folder.join("binaries").join(platform());
+    binaries.join(format!("{MODEL_IDENTIFIER}{DLL_SUFFIX}"))
 }
