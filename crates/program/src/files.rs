@@ -14,6 +14,11 @@ pub fn read_text(file: &Path) -> Result<String, Failure> {
     fs::read_to_string(file).map_err(failed(format!("cannot read {}", file.display())))
 }
 
+/// Writes a file of no value to others: a run that is killed may leave it incomplete.
+pub fn write(file: &Path, content: &[u8]) -> Result<(), Failure> {
+    fs::write(file, content).map_err(failed(format!("cannot write {}", file.display())))
+}
+
 /// Makes a folder, and those above it.
 pub fn make_folder(folder: &Path) -> Result<(), Failure> {
     fs::create_dir_all(folder).map_err(failed(format!("cannot make {}", folder.display())))

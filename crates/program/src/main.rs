@@ -52,6 +52,8 @@ enum Command {
         /// the target is written, also if it does not exist yet, and the link stays.
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
+        #[command(flatten)]
+        selection: package::Selection,
     },
     /// Run the examples in fmu-examples/: tables and pictures of systems that contain the rotor
     Examples {
@@ -144,14 +146,16 @@ fn parse_and_run() -> Result<ExitCode, Failure> {
 
 fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
     let target = target_folder()?;
+    let given = library.clone();
     let library = || library.map_or_else(|| package::library::build(&target), Ok);
     let default_fmu = target.join("fmu").join("HelicopterRotor.fmu");
     match command {
-        Some(Command::Package { out }) => {
+        Some(Command::Package { out, selection }) => {
             let out = out.unwrap_or(default_fmu);
             // Refused before the library is built.
             draft::place_of_file(&out)?;
-            make_fmu(&out, &library()?)
+            package::write(&out, &selection.contents(given, &target)?)?;
+            output::print(format_args!("Made {}", out.display()))
         }
         Some(Command::Examples { names, out }) => {
             let out = out.unwrap_or_else(|| target.join("examples"));
@@ -184,14 +188,25 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
 }
 
 fn make_fmu(file: &Path, library: &Path) -> Result<(), Failure> {
-    package::write(file, library)?;
+    package::write(file, &package::Contents::of_host(library)?)?;
     output::print(format_args!("Made {}", file.display()))
 }
 
 /// Cargo's target folder, which contains this program as `target/<profile>/<program>`.
+///
+/// Fails for a program that `cargo install` has copied, into a folder `bin`, or whose source tree
+/// has gone: it needs both.
 fn target_folder() -> Result<PathBuf, Failure> {
     let program = std::env::current_exe().map_err(failed("cannot find this program's own file"))?;
-    let folder = program.parent().and_then(Path::parent);
+    let profile = program.parent();
+    let is_installed = profile.is_some_and(|folder| folder.ends_with("bin"));
+    if is_installed || !sources().join("Cargo.toml").is_file() {
+        return Err(Failure(format!(
+            "this program works only in the source tree that it was built from, {}; run it there with `cargo run --release`",
+            sources().display()
+        )));
+    }
+    let folder = profile.and_then(Path::parent);
     folder.map(Path::to_path_buf).ok_or_else(|| {
         Failure("this program is not in a target folder of cargo; run it with `cargo run`".into())
     })

@@ -1,16 +1,29 @@
 //! Writing the .fmu: a zip archive of the description, the binary, resources and documentation
 //! (FMI 2.0.5, section 2.3).
+//!
+//! * `selection.rs`: the platforms of the .fmu
+//! * `library.rs`: building the library for this machine
+//! * `cross.rs`: building it for other machines
+//! * `binary.rs`: checking a built library
+//! * `documentation.rs`: the documentation page
 
+mod binary;
+mod cross;
 mod documentation;
 pub mod library;
+mod platform;
+mod selection;
+
+pub use selection::{Contents, Selection};
 
 use crate::{
     Failure,
     draft::{Draft, place_of_file},
     failed, files, sources,
 };
-use helicopter_rotor::description;
+use helicopter_rotor::{block::variables::MODEL_IDENTIFIER, description};
 use std::{
+    borrow::Cow,
     fs::File,
     io::{Seek, Write},
     path::{Path, PathBuf},
@@ -37,16 +50,16 @@ fn model_description() -> PathBuf {
     sources().join("modelDescription")
 }
 
-/// Writes the .fmu with a shared library in it. After an error there is no incomplete `file`.
-pub fn write(file: &Path, library: &Path) -> Result<(), Failure> {
+/// Writes the .fmu with these libraries in it. After an error there is no incomplete `file`.
+pub fn write(file: &Path, contents: &Contents) -> Result<(), Failure> {
     let draft = Draft::new(place_of_file(file)?)?;
     let out =
         File::create(draft.path()).map_err(failed(format!("cannot write {}", file.display())))?;
-    archive(out, library)?;
+    archive(out, contents)?;
     draft.publish()
 }
 
-fn archive(out: impl Write + Seek, library: &Path) -> Result<(), Failure> {
+fn archive(out: impl Write + Seek, contents: &Contents) -> Result<(), Failure> {
     let mut zip = ZipWriter::new(out);
     // A fixed date and mode: the same content gives the same bytes.
     let options = SimpleFileOptions::default()
@@ -59,9 +72,14 @@ fn archive(out: impl Write + Seek, library: &Path) -> Result<(), Failure> {
             .map_err(failed(format!("cannot add {name} to the archive")))
     };
     let read = |relative: &str| files::read(&model_description().join(relative));
-    add("modelDescription.xml", description::XML.as_bytes())?;
-    let (binary, content) = library::read(library)?;
-    add(&binary, &content)?;
+    add("modelDescription.xml", xml(contents)?.as_bytes())?;
+    for (platform, binary) in &contents.binaries {
+        let (folder, suffix) = (platform.folder(), platform.suffix());
+        add(
+            &format!("binaries/{folder}/{MODEL_IDENTIFIER}{suffix}"),
+            &binary.0,
+        )?;
+    }
     let page = documentation::page(&read("documentation/index.html")?)?;
     add("documentation/index.html", page.as_bytes())?;
     for name in FILES {
@@ -75,4 +93,19 @@ fn archive(out: impl Write + Seek, library: &Path) -> Result<(), Failure> {
     }
     zip.finish().map_err(failed("cannot finish the archive"))?;
     Ok(())
+}
+
+/// modelDescription.xml, whose description says for what machines the .fmu is, if not for those
+/// that its folders say. The GUID stays that of the libraries.
+fn xml(contents: &Contents) -> Result<Cow<'static, str>, Failure> {
+    const BEGIN: &str = " description=\"";
+    const ARM: &str = "For ARM Linux only: the binary in linux64 is for ARM. ";
+    if !contents.is_for_arm_only {
+        return Ok(Cow::Borrowed(description::XML));
+    }
+    // The first description is that of the whole model.
+    let (before, after) = description::XML
+        .split_once(BEGIN)
+        .ok_or_else(|| Failure("modelDescription.xml has no description; give it one".into()))?;
+    Ok(Cow::Owned(format!("{before}{BEGIN}{ARM}{after}")))
 }

@@ -54,7 +54,7 @@ pub fn run(out: &Path, library: &Path, target: &Path, purpose: Purpose) -> Resul
 
 fn fly_into(folder: &Path, library: &Path, interpreter: &Path) -> Result<(), Failure> {
     let fmu = folder.join("HelicopterRotor.fmu");
-    package::write(&fmu, library)?;
+    package::write(&fmu, &package::Contents::of_host(library)?)?;
     flights::fly_all(interpreter, &fmu, folder)
 }
 

@@ -12,6 +12,7 @@ mod importers;
 mod importers_table;
 mod package;
 mod package_out;
+mod platforms;
 mod reference;
 mod support;
 mod tables;

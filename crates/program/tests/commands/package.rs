@@ -3,9 +3,7 @@
 use crate::support;
 use roxmltree::{Document, Node};
 use std::{
-    collections::BTreeMap,
-    fs::{self, File},
-    io::Read,
+    fs,
     path::{Path, PathBuf},
     process::Command,
 };
@@ -21,23 +19,9 @@ fn scratch(name: &str) -> PathBuf {
     support::scratch().join(name)
 }
 
-/// The files in the archive by name.
-fn content(fmu: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut archive = zip::ZipArchive::new(File::open(fmu).unwrap()).unwrap();
-    (0..archive.len())
-        .map(|i| {
-            let mut file = archive.by_index(i).unwrap();
-            let name = file.name().unwrap().into_owned();
-            let mut bytes = Vec::new();
-            file.read_to_end(&mut bytes).unwrap();
-            (name, bytes)
-        })
-        .collect()
-}
-
 #[test]
 fn the_archive_holds_what_an_importer_and_a_reader_expect() {
-    let files = content(support::packaged_fmu());
+    let files = support::content(support::packaged_fmu());
     for name in [
         "modelDescription.xml",
         "binaries/linux64/HelicopterRotor.so",
@@ -100,7 +84,7 @@ fn the_same_content_makes_the_same_archive() {
 /// makes algebraic loops.
 #[test]
 fn every_unknown_of_the_model_structure_states_its_dependencies() {
-    let files = content(support::packaged_fmu());
+    let files = support::content(support::packaged_fmu());
     let xml = String::from_utf8(files["modelDescription.xml"].clone()).unwrap();
     let description = Document::parse(&xml).unwrap();
     let with = |tag: &'static str| {

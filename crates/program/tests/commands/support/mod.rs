@@ -2,8 +2,9 @@
 //! environment, the program installed elsewhere, and running commands.
 
 use std::{
+    collections::BTreeMap,
     fs::{self, File},
-    io,
+    io::{self, Read},
     path::{Path, PathBuf},
     process::Command,
     sync::OnceLock,
@@ -47,7 +48,7 @@ pub fn scratch() -> &'static Path {
     FOLDER.get_or_init(|| {
         let all = Path::new(env!("CARGO_TARGET_TMPDIR"));
         let prefix = concat!(env!("CARGO_CRATE_NAME"), "-");
-        if Path::new("/proc/self").exists() {
+        if cfg!(target_os = "linux") {
             for entry in fs::read_dir(all).into_iter().flatten().flatten() {
                 let name = entry.file_name().to_string_lossy().into_owned();
                 let process = name
@@ -73,6 +74,20 @@ pub fn packaged_fmu() -> &'static Path {
         succeed(program().args(["package", "--out"]).arg(&file));
         file
     })
+}
+
+/// The files in the archive by name.
+pub fn content(fmu: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut archive = zip::ZipArchive::new(File::open(fmu).unwrap()).unwrap();
+    (0..archive.len())
+        .map(|i| {
+            let mut file = archive.by_index(i).unwrap();
+            let name = file.name().unwrap().into_owned();
+            let mut bytes = Vec::new();
+            file.read_to_end(&mut bytes).unwrap();
+            (name, bytes)
+        })
+        .collect()
 }
 
 /// The interpreter of the examples' environment, which is made if it is missing.

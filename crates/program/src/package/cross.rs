@@ -1,0 +1,222 @@
+//! Libraries for other platforms and for other machines of this one: the targets, linkers and
+//! options with which cargo builds them. The same source and compiler give the same bytes in every
+//! folder.
+
+use super::{
+    binary::{self, Binary},
+    library,
+    platform::Platform,
+};
+use crate::{Failure, failed, files, process, sources};
+use helicopter_rotor::block::variables::MODEL_IDENTIFIER;
+use std::{
+    env,
+    path::{Path, PathBuf},
+    process::{Command, Stdio},
+    time::Duration,
+};
+
+/// How long a program may take to say something about itself.
+const LIMIT: Duration = Duration::from_secs(60);
+/// The oldest C library of Linux on which the library runs.
+const GLIBC: &str = "2.17";
+/// The oldest macOS.
+const MACOS: &str = "11.0";
+
+/// Builds the library for a platform with cargo, in a folder of its own in cargo's target folder.
+pub fn build(platform: Platform, target: &Path) -> Result<Binary, Failure> {
+    let folder = target.join("platforms");
+    match platform {
+        Platform::Linux64 => linux(platform, "x86_64-unknown-linux-gnu", &folder),
+        Platform::Aarch64Linux => linux(platform, "aarch64-unknown-linux-gnu", &folder),
+        Platform::Win64 => windows(&folder),
+        Platform::Aarch64Darwin => macos("aarch64-apple-darwin", &folder),
+        Platform::Darwin64 => Ok(binary::universal([
+            &macos("x86_64-apple-darwin", &folder)?,
+            &macos("aarch64-apple-darwin", &folder)?,
+        ])),
+    }
+}
+
+/// Zig links for any version of the C library.
+fn linux(platform: Platform, target: &'static str, folder: &Path) -> Result<Binary, Failure> {
+    let mut version = Command::new("cargo-zigbuild");
+    let missing = format!(
+        "{platform} needs cargo-zigbuild on the PATH, which links for glibc {GLIBC}; install it with `pip install ziglang cargo-zigbuild`, or name a built library with --binary {platform}=FILE"
+    );
+    process::run_quietly(version.arg("--version"), LIMIT).map_err(failed(missing))?;
+    let build = Build::new(platform, target)?;
+    let mut command = Command::new("cargo-zigbuild");
+    command.args(["rustc", "--target", &format!("{target}.{GLIBC}")]);
+    build.run(command, folder)
+}
+
+fn windows(folder: &Path) -> Result<Binary, Failure> {
+    let platform = Platform::Win64;
+    if cfg!(all(windows, target_env = "msvc")) {
+        let mut build = Build::new(platform, "x86_64-pc-windows-msvc")?;
+        // Needs no runtime of Visual C++.
+        build.flags(["-Ctarget-feature=+crt-static", "-Clink-arg=/Brepro"]);
+        return build.run_cargo(folder);
+    }
+    let target = "x86_64-pc-windows-gnu";
+    let linkers = ["x86_64-w64-mingw32-gcc-win32", "x86_64-w64-mingw32-gcc"];
+    let runs =
+        |linker: &&str| process::run_quietly(Command::new(linker).arg("--version"), LIMIT).is_ok();
+    let linker = linkers.into_iter().find(runs).ok_or_else(|| {
+        Failure(format!(
+            "{platform} needs the linker {} on the PATH; install MinGW-w64 (on Debian or Ubuntu the package gcc-mingw-w64-x86-64-win32), or name a built library with --binary {platform}=FILE",
+            linkers[1]
+        ))
+    })?;
+    let mut build = Build::new(platform, target)?;
+    build.flags([
+        &format!("-Clinker={linker}"),
+        "-Clink-arg=-Wl,--no-insert-timestamp",
+    ]);
+    build.run_cargo(folder)
+}
+
+/// On other systems the compiler's own linker is used, and a list of what macOS 11 has in the place
+/// of Apple's SDK.
+fn macos(target: &'static str, folder: &Path) -> Result<Binary, Failure> {
+    let platform = match target.starts_with("x86_64") {
+        true => Platform::Darwin64,
+        false => Platform::Aarch64Darwin,
+    };
+    let mut build = Build::new(platform, target)?;
+    let mut command = cargo(target);
+    command.env("MACOSX_DEPLOYMENT_TARGET", MACOS);
+    let name = format!("@rpath/{MODEL_IDENTIFIER}{}", platform.suffix());
+    if cfg!(target_os = "macos") {
+        build.flags([&format!("-Clink-arg=-Wl,-install_name,{name}")]);
+        return build.run(command, folder);
+    }
+    let sdk = folder.join("MacOSX.sdk");
+    files::make_folder(&sdk.join("usr/lib"))?;
+    for library in ["System", "c", "m", "iconv"] {
+        let file = sdk.join("usr/lib").join(format!("lib{library}.tbd"));
+        files::write(&file, include_bytes!("libSystem.tbd"))?;
+    }
+    // The linker strips: stripping afterwards would break the signature that it makes.
+    command
+        .env("SDKROOT", sdk)
+        .env("CARGO_PROFILE_RELEASE_STRIP", "none");
+    build.flags(["-Clinker=rust-lld", "-Clinker-flavor=ld64.lld"]);
+    build.flags(
+        ["-S", "-x", "-dead_strip_dylibs", "-install_name", &name]
+            .map(|argument| format!("-Clink-arg={argument}")),
+    );
+    build.run(command, folder)
+}
+
+fn cargo(target: &str) -> Command {
+    let mut command = Command::new(library::cargo());
+    command.args(["rustc", "--target", target]);
+    command
+}
+
+/// How a library is built.
+struct Build {
+    platform: Platform,
+    target: &'static str,
+    flags: Vec<String>,
+}
+
+impl Build {
+    /// Fails if the compiler has no standard library for the target.
+    fn new(platform: Platform, target: &'static str) -> Result<Self, Failure> {
+        let folder = said_by(compiler().args(["--print", "target-libdir", "--target", target]))?;
+        if !Path::new(&folder).is_dir() {
+            return Err(Failure(format!(
+                "{platform} needs Rust's standard library for {target}; install it with `rustup target add {target}`, or name a built library with --binary {platform}=FILE"
+            )));
+        }
+        Ok(Self {
+            platform,
+            target,
+            flags: vec![],
+        })
+    }
+
+    fn flags<S: AsRef<str>, const N: usize>(&mut self, flags: [S; N]) {
+        self.flags
+            .extend(flags.map(|flag| flag.as_ref().to_owned()));
+    }
+
+    fn run_cargo(self, folder: &Path) -> Result<Binary, Failure> {
+        let command = cargo(self.target);
+        self.run(command, folder)
+    }
+
+    /// Runs a command of cargo that ends with the target.
+    fn run(mut self, mut command: Command, folder: &Path) -> Result<Binary, Failure> {
+        for (from, to) in renamed_folders(folder)? {
+            let flag = format!("--remap-path-prefix={}={to}", from.display());
+            self.flags.push(flag);
+        }
+        command
+            .args(["--release", "--locked", "--crate-type", "cdylib"])
+            // Smaller files, as five of them go into one.
+            .env("CARGO_PROFILE_RELEASE_LTO", "fat")
+            .env("CARGO_ENCODED_RUSTFLAGS", self.flags.join("\x1f"));
+        let file = library::run(command, folder, self.platform.suffix())?;
+        binary::read(self.platform, &file)
+    }
+}
+
+/// The folders whose names would be in the library, where panics are, and what they are called
+/// there.
+fn renamed_folders(target: &Path) -> Result<Vec<(PathBuf, String)>, Failure> {
+    let mut renamed = vec![
+        (sources().to_path_buf(), "/helicopter-rotor".to_owned()),
+        (target.to_path_buf(), "/target".to_owned()),
+    ];
+    // The standard library's source, if the component rust-src is installed.
+    let system = said_by(compiler().args(["--print", "sysroot"]))?;
+    let version = said_by(compiler().arg("-vV"))?;
+    let commit = version
+        .lines()
+        .find_map(|l| l.strip_prefix("commit-hash: "));
+    renamed.push((
+        Path::new(&system).join("lib/rustlib/src/rust"),
+        format!("/rustc/{}", commit.unwrap_or("unknown")),
+    ));
+    let mut metadata = Command::new(library::cargo());
+    metadata
+        .args([
+            "metadata",
+            "--format-version",
+            "1",
+            "--locked",
+            "--manifest-path",
+        ])
+        .arg(sources().join("Cargo.toml"));
+    let metadata = said_by(&mut metadata)?;
+    let metadata: serde_json::Value = serde_json::from_str(&metadata)
+        .map_err(failed("cannot read what `cargo metadata` says"))?;
+    let packages = metadata["packages"].as_array().into_iter().flatten();
+    for package in packages.filter(|package| !package["source"].is_null()) {
+        let manifest = Path::new(package["manifest_path"].as_str().unwrap_or_default());
+        let folder = manifest.ancestors().nth(2).unwrap_or(manifest);
+        if !renamed.iter().any(|(known, _)| known == folder) {
+            renamed.push((folder.to_path_buf(), "/crates".to_owned()));
+        }
+    }
+    Ok(renamed)
+}
+
+fn compiler() -> Command {
+    Command::new(env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
+}
+
+/// What a program prints.
+fn said_by(command: &mut Command) -> Result<String, Failure> {
+    let sentence = format!("cannot run {}", command.get_program().display());
+    let (status, said, errors) =
+        process::output(command.stderr(Stdio::piped()), LIMIT).map_err(failed(&sentence))?;
+    if !status.success() {
+        return Err(Failure(format!("{sentence} ({status}): {errors}")));
+    }
+    Ok(said.trim().to_owned())
+}

@@ -1,0 +1,459 @@
+//! The platforms of the .fmu: which libraries go into it, and what those for all platforms are.
+
+use crate::support::{self, fail, library, scratch, succeed};
+use helicopter_rotor::{block::variables::GUID, fmi2::legality};
+use object::{
+    BinaryFormat, FileKind, Object,
+    macho::{self, MachHeader64},
+    read::macho::{FatArch, LoadCommandVariant, MachHeader, MachOFatFile32},
+};
+use sha2::{Digest, Sha256};
+use std::{
+    collections::{BTreeMap, BTreeSet},
+    env, fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+/// The command that writes an .fmu, with options.
+fn package(out: &Path, options: &[&str]) -> Command {
+    let mut command = support::program();
+    command.args(["package", "--out"]).arg(out).args(options);
+    command
+}
+
+/// The option `--binary` for a platform and a file.
+fn binary(platform: &str, file: &Path) -> String {
+    format!("--binary={platform}={}", file.display())
+}
+
+/// A library made by a C compiler.
+fn made_from(name: &str, source: &str) -> PathBuf {
+    let file = scratch().join(name);
+    fs::write(file.with_extension("c"), source).unwrap();
+    let mut compiler = Command::new("cc");
+    compiler.args(["-shared", "-fPIC", "-o"]).arg(&file);
+    succeed(compiler.arg(file.with_extension("c")));
+    file
+}
+
+#[test]
+fn a_given_library_is_the_only_one_and_none_is_built() {
+    let out = scratch().join("given.fmu");
+    let mut command = package(&out, &[&binary("linux64", library())]);
+    succeed(command.env("CARGO", "/nonexistent"));
+    let content = support::content(&out);
+    let binaries: Vec<_> = content
+        .keys()
+        .filter(|n| n.starts_with("binaries/"))
+        .collect();
+    assert_eq!(binaries, ["binaries/linux64/HelicopterRotor.so"]);
+    assert_eq!(
+        content["binaries/linux64/HelicopterRotor.so"],
+        fs::read(library()).unwrap()
+    );
+}
+
+#[test]
+fn a_library_that_does_not_fit_is_refused_with_the_reason() {
+    let out = scratch().join("refused.fmu");
+    let ours = library();
+    let text = sources("README.md");
+    let empty = made_from("other.so", "int other(void) { return 1; }");
+    let guid = format!("const char guid[] = \"{GUID}\"; int other(void) {{ return 1; }}");
+    let without_functions = made_from("without-functions.so", &guid);
+    for (platform, file, words) in [
+        ("win64", ours, "is for Linux on X86_64, not for win64"),
+        (
+            "aarch64-linux",
+            ours,
+            "is for Linux on X86_64, not for aarch64-linux",
+        ),
+        ("darwin64", ours, "is for Linux on X86_64, not for darwin64"),
+        ("linux64", &text, "is not a shared library that can be read"),
+        (
+            "linux64",
+            &empty,
+            "was built from another modelDescription.xml",
+        ),
+        (
+            "linux64",
+            &without_functions,
+            "does not export fmi2GetTypesPlatform",
+        ),
+    ] {
+        let message = fail(&mut package(&out, &[&binary(platform, file)]));
+        assert!(
+            message.contains(words) && message.contains(&file.display().to_string()),
+            "{message}"
+        );
+        assert!(!out.exists());
+    }
+}
+
+fn sources(name: &str) -> PathBuf {
+    support::sources().join(name)
+}
+
+#[test]
+fn contradictory_options_are_refused() {
+    let out = scratch().join("contradictory.fmu");
+    let ours = binary("linux64", library());
+    for (options, words) in [
+        (vec![&*ours, &ours], "two libraries are given for linux64"),
+        (
+            vec!["--platforms=win64", &ours],
+            "is not among the platforms",
+        ),
+        (vec!["--platforms=arm", &ours], "is not among the platforms"),
+        (vec!["--platforms=linux32"], "`linux32` is no platform"),
+        (vec!["--platforms=all,win64"], "`all` is no platform"),
+        (vec!["--binary=win64"], "name a platform and a file"),
+    ] {
+        let message = fail(&mut package(&out, &options));
+        assert!(message.contains(words), "{message}");
+    }
+}
+
+/// Instead of the error of a linker, minutes later.
+#[test]
+fn what_is_missing_to_build_for_a_platform_is_named_with_the_way_to_get_it() {
+    let folder = scratch().join("no-tools");
+    // A compiler that knows no other target.
+    let compiler = folder.join("rustc");
+    support::write_executable(&compiler, "#!/bin/sh\necho /no/such/folder\n");
+    let out = folder.join("rotor.fmu");
+    for (platform, words) in [
+        ("linux64", "pip install ziglang cargo-zigbuild"),
+        ("win64", "gcc-mingw-w64-x86-64-win32"),
+        ("aarch64-darwin", "rustup target add aarch64-apple-darwin"),
+    ] {
+        let mut command = package(&out, &["--platforms", platform]);
+        command.env("PATH", &folder).env("RUSTC", &compiler);
+        let message = fail(&mut command);
+        let other_way = format!("--binary {platform}=FILE");
+        assert!(
+            message.contains(words) && message.contains(&other_way),
+            "{message}"
+        );
+    }
+}
+
+/// It would write its files beside the folder of the installed programs.
+#[test]
+fn a_program_that_cargo_has_installed_refuses_to_work_elsewhere() {
+    let folder = scratch().join("cargo-home/bin");
+    fs::create_dir_all(&folder).unwrap();
+    let program = folder.join("helicopter-rotor");
+    fs::hard_link(env!("CARGO_BIN_EXE_helicopter-rotor"), &program).unwrap();
+    let message = fail(Command::new(&program).arg("package"));
+    assert!(
+        message.contains("works only in the source tree") && message.contains("cargo run"),
+        "{message}"
+    );
+    assert_eq!(fs::read_dir(folder.parent().unwrap()).unwrap().count(), 1);
+    succeed(Command::new(&program).arg("--help"));
+}
+
+// ---------------------------------------------------------------- the .fmu for all platforms
+
+/// Names the .fmu for all platforms.
+const FMU: &str = "HELICOPTER_ROTOR_FMU";
+
+/// The files in that .fmu.
+fn for_all_platforms() -> BTreeMap<String, Vec<u8>> {
+    let file = env::var_os(FMU).unwrap_or_else(|| panic!("set {FMU} to the file"));
+    assert!(fs::metadata(&file).unwrap().len() <= 5_000_000);
+    support::content(Path::new(&file))
+}
+
+/// The binaries by the name of their platform. The universal one is in its parts.
+fn binaries() -> Vec<(String, Vec<u8>)> {
+    let mut binaries = Vec::new();
+    for (name, content) in for_all_platforms() {
+        let Some(place) = name.strip_prefix("binaries/") else {
+            continue;
+        };
+        let platform = place.split('/').next().unwrap().to_owned();
+        if FileKind::parse(&*content).unwrap() != FileKind::MachOFat32 {
+            binaries.push((platform, content));
+            continue;
+        }
+        for part in MachOFatFile32::parse(&*content).unwrap().arches() {
+            assert_eq!(part.offset.get(object::BigEndian) % (1 << 14), 0);
+            binaries.push((platform.clone(), part.data(&*content).unwrap().to_vec()));
+        }
+    }
+    binaries
+}
+
+#[test]
+#[ignore = "needs the .fmu that .ci/platforms makes"]
+fn the_fmu_for_all_platforms_has_a_binary_for_each() {
+    let files = for_all_platforms();
+    let binaries: Vec<_> = files
+        .keys()
+        .filter(|n| n.starts_with("binaries/"))
+        .collect();
+    assert_eq!(
+        binaries,
+        [
+            "binaries/aarch64-darwin/HelicopterRotor.dylib",
+            "binaries/aarch64-linux/HelicopterRotor.so",
+            "binaries/darwin64/HelicopterRotor.dylib",
+            "binaries/linux64/HelicopterRotor.so",
+            "binaries/win64/HelicopterRotor.dll",
+        ]
+    );
+    let made_for: Vec<_> = self::binaries()
+        .iter()
+        .map(|(platform, content)| {
+            let file = object::File::parse(&**content).unwrap();
+            format!("{platform}: {:?} {:?}", file.format(), file.architecture())
+        })
+        .collect();
+    assert_eq!(
+        made_for,
+        [
+            "aarch64-darwin: MachO Aarch64",
+            "aarch64-linux: Elf Aarch64",
+            "darwin64: MachO X86_64",
+            "darwin64: MachO Aarch64",
+            "linux64: Elf X86_64",
+            "win64: Pe X86_64",
+        ]
+    );
+}
+
+#[test]
+#[ignore = "needs the .fmu that .ci/platforms makes"]
+fn every_binary_exports_the_functions_of_the_standard_and_nothing_else() {
+    let standard: BTreeSet<_> = legality::TABLE
+        .iter()
+        .map(|(function, _, _)| function.name().to_owned())
+        .collect();
+    assert_eq!(standard.len(), 44);
+    for (platform, content) in binaries() {
+        let file = object::File::parse(&*content).unwrap();
+        let names = file.exports().unwrap().map(|export| {
+            let export = export.unwrap();
+            let object::NameOrOrdinal::Name(name) = export.name() else {
+                panic!("{platform}: {export:?} has no name");
+            };
+            let name = str::from_utf8(name).unwrap();
+            // Mach-O puts an underscore before names of C.
+            let is_macho = file.format() == BinaryFormat::MachO;
+            let prefix = if is_macho { "_" } else { "" };
+            name.strip_prefix(prefix).unwrap().to_owned()
+        });
+        assert_eq!(names.collect::<BTreeSet<_>>(), standard, "{platform}");
+    }
+}
+
+/// Libraries that every system of its kind has: no runtime of a compiler among them.
+fn may_be_needed(format: BinaryFormat) -> &'static [&'static str] {
+    match format {
+        BinaryFormat::Elf => &[
+            "libc.so.6",
+            "libdl.so.2",
+            "libpthread.so.0",
+            "ld-linux-aarch64.so.1",
+            "ld-linux-x86-64.so.2",
+        ],
+        BinaryFormat::Pe => &[
+            "KERNEL32.dll",
+            "USERENV.dll",
+            "WS2_32.dll",
+            "api-ms-win-core-synch-l1-2-0.dll",
+            "bcryptprimitives.dll",
+            "msvcrt.dll",
+            "ntdll.dll",
+        ],
+        BinaryFormat::MachO => &["/usr/lib/libSystem.B.dylib"],
+        other => panic!("no system has binaries of the format {other:?}"),
+    }
+}
+
+#[test]
+#[ignore = "needs the .fmu that .ci/platforms makes"]
+fn every_binary_needs_only_what_its_system_has() {
+    for (platform, content) in binaries() {
+        let needed = match object::File::parse(&*content).unwrap() {
+            object::File::MachO64(_) => MachO::read(&content).needed,
+            object::File::Elf64(file) => needed_by_elf(&file),
+            file => {
+                let imports = file.imports().unwrap().map(|import| import.unwrap());
+                imports
+                    .map(|import| String::from_utf8_lossy(import.library()).into_owned())
+                    .collect()
+            }
+        };
+        let format = object::File::parse(&*content).unwrap().format();
+        assert!(!needed.is_empty(), "{platform}");
+        for library in needed {
+            assert!(
+                may_be_needed(format).contains(&library.as_str()),
+                "{platform} needs {library}"
+            );
+        }
+    }
+}
+
+/// The libraries that an ELF file names.
+fn needed_by_elf(file: &object::read::elf::ElfFile64<'_>) -> BTreeSet<String> {
+    let table = file.elf_dynamic_table().unwrap();
+    table
+        .iter()
+        .filter(|entry| entry.tag == object::elf::DT_NEEDED)
+        .map(|entry| String::from_utf8_lossy(table.string(entry).unwrap()).into_owned())
+        .collect()
+}
+
+/// What the load commands of a Mach-O file say.
+struct MachO {
+    needed: BTreeSet<String>,
+    name: String,
+    /// The oldest macOS, as in 0x000b_0000 for 11.0.
+    oldest: u32,
+    /// The place and size of the signature.
+    signature: Option<(usize, usize)>,
+}
+
+impl MachO {
+    fn read(content: &[u8]) -> Self {
+        let mut this = Self {
+            needed: BTreeSet::new(),
+            name: String::new(),
+            oldest: u32::MAX,
+            signature: None,
+        };
+        let header = MachHeader64::<object::Endianness>::parse(content, 0).unwrap();
+        let endian = header.endian().unwrap();
+        let mut commands = header.load_commands(endian, content, 0).unwrap();
+        while let Some(command) = commands.next().unwrap() {
+            let text = |place| {
+                let text = command.string(endian, place).unwrap();
+                String::from_utf8_lossy(text).into_owned()
+            };
+            match command.variant().unwrap() {
+                LoadCommandVariant::Dylib(dylib) => {
+                    this.needed.insert(text(dylib.dylib.name));
+                }
+                LoadCommandVariant::IdDylib(dylib) => this.name = text(dylib.dylib.name),
+                LoadCommandVariant::BuildVersion(version, _) => {
+                    this.oldest = version.minos.get(endian).0;
+                }
+                LoadCommandVariant::LinkeditData(data)
+                    if data.cmd.get(endian) == macho::LC_CODE_SIGNATURE =>
+                {
+                    let place = data.dataoff.get(endian) as usize;
+                    this.signature = Some((place, data.datasize.get(endian) as usize));
+                }
+                _ => {}
+            }
+        }
+        this
+    }
+}
+
+#[test]
+#[ignore = "needs the .fmu that .ci/platforms makes"]
+fn the_binaries_for_linux_run_with_glibc_2_17() {
+    let mut count = 0;
+    for (platform, content) in binaries() {
+        if !platform.contains("linux") {
+            continue;
+        }
+        for (place, _) in content
+            .windows(6)
+            .enumerate()
+            .filter(|(_, w)| w == b"GLIBC_")
+        {
+            let version = content[place + 6..].split(|b| *b == 0).next().unwrap();
+            let version = str::from_utf8(version).unwrap();
+            let parts: Vec<u32> = version.split('.').map(|n| n.parse().unwrap()).collect();
+            assert!(parts <= vec![2, 17], "{platform} needs GLIBC_{version}");
+            count += 1;
+        }
+    }
+    assert!(count >= 2);
+}
+
+#[test]
+#[ignore = "needs the .fmu that .ci/platforms makes"]
+fn the_binaries_for_macos_run_with_version_11_from_any_folder() {
+    let mut count = 0;
+    for (platform, content) in binaries() {
+        if platform.contains("darwin") {
+            let file = MachO::read(&content);
+            assert!(file.oldest <= 0x000b_0000, "{platform}: {:x}", file.oldest);
+            assert_eq!(file.name, "@rpath/HelicopterRotor.dylib", "{platform}");
+            count += 1;
+        }
+    }
+    assert_eq!(count, 3);
+}
+
+/// macOS on ARM ends a process that loads a library whose pages do not match its signature.
+#[test]
+#[ignore = "needs the .fmu that .ci/platforms makes"]
+fn the_binaries_for_macos_on_arm_have_a_valid_signature() {
+    let mut count = 0;
+    for (platform, content) in binaries() {
+        let file = object::File::parse(&*content).unwrap();
+        let is_arm = file.architecture() == object::Architecture::Aarch64;
+        if file.format() != BinaryFormat::MachO || !is_arm {
+            continue;
+        }
+        let (begin, size) = MachO::read(&content).signature.expect("it is signed");
+        let signature = &content[begin..begin + size];
+        let number = |bytes: &[u8], place: usize| {
+            u32::from_be_bytes(bytes[place..place + 4].try_into().unwrap()) as usize
+        };
+        assert_eq!(
+            number(signature, 0),
+            macho::CSMAGIC_EMBEDDED_SIGNATURE as usize
+        );
+        // The first entry is the code directory.
+        let directory = &signature[number(signature, 16)..];
+        assert_eq!(number(directory, 0), macho::CSMAGIC_CODEDIRECTORY as usize);
+        let (hashes, pages, end) = (
+            number(directory, 16),
+            number(directory, 28),
+            number(directory, 32),
+        );
+        assert_eq!(
+            (directory[36], directory[37], end),
+            (32, 2, begin),
+            "{platform}"
+        );
+        let page_size = 1 << directory[39];
+        assert_eq!(pages, begin.div_ceil(page_size));
+        for (page, content) in content[..end].chunks(page_size).enumerate() {
+            let hash = &directory[hashes + 32 * page..][..32];
+            assert_eq!(hash, &*Sha256::digest(content), "{platform}: page {page}");
+        }
+        count += 1;
+    }
+    assert_eq!(count, 2);
+}
+
+/// Else the same source gives another file in another folder, and tells where it was built.
+#[test]
+#[ignore = "needs the .fmu that .ci/platforms makes"]
+fn no_binary_names_a_folder_of_the_machine_on_which_it_was_built() {
+    let here = support::sources().to_str().unwrap().to_owned();
+    let home = env::var("HOME").unwrap() + "/";
+    for (platform, content) in binaries() {
+        for text in [&*here, &*home, "/registry/src/", "/.rustup/"] {
+            let found = content
+                .windows(text.len())
+                .position(|w| w == text.as_bytes());
+            let shown = found.map(|place| {
+                let end = content.len().min(place + 200);
+                String::from_utf8_lossy(&content[place..end]).into_owned()
+            });
+            assert_eq!(shown, None, "{platform} contains {text}");
+        }
+    }
+}
