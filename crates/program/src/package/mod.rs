@@ -64,6 +64,7 @@ fn archive(out: impl Write + Seek, contents: &Contents) -> Result<(), Failure> {
     // A fixed date and mode: the same content gives the same bytes.
     let options = SimpleFileOptions::default()
         .last_modified_time(DateTime::default())
+        .compression_level(Some(9))
         .unix_permissions(0o644);
     let mut add = |name: &str, content: &[u8]| {
         zip.start_file(name, options)
