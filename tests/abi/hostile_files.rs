@@ -3,7 +3,7 @@
 //! how much memory they take.
 
 use crate::support::{Instance, c, fmu::scratch};
-use std::{fs, sync::mpsc, thread, time::Duration};
+use std::fs;
 
 /// Writes a file of this test.
 fn written(name: &str, content: &str) -> String {
@@ -28,6 +28,7 @@ fn message(parameter: &str, file: &str) -> String {
 #[cfg(target_os = "linux")]
 #[test]
 fn files_of_the_system_neither_hang_an_instance_nor_fill_its_memory() {
+    use std::{sync::mpsc, thread, time::Duration};
     for parameter in ["airfoil.file", "geometry.file"] {
         for file in [
             "/proc/kmsg",

@@ -97,10 +97,11 @@ fn with_logging_on_the_log_says_which_files_were_read() {
         "airfoils/naca0015-knight-hefner-reynolds.polar",
     ] {
         let path = Fmu::shared().resources().join(file);
-        let path = path.to_str().unwrap();
+        let with_slashes = |text: &str| text.replace('\\', "/");
+        let path = with_slashes(path.to_str().unwrap());
         let lines = log
             .iter()
-            .filter(|line| line.message.contains(path))
+            .filter(|line| with_slashes(&line.message).contains(&path))
             .count();
         assert_eq!(lines, 1, "{path} in {log:?}");
     }

@@ -32,6 +32,7 @@ mod pointers;
 mod promises;
 mod random;
 mod resources;
+mod same_bits;
 mod serialized;
 mod settings;
 mod silence;

@@ -2,8 +2,8 @@
 //! library lies.
 
 use crate::support::{
-    Creation, Fmu, Instance, child,
-    fmu::{binary, scratch, unpack_into, uri},
+    Creation, Fmu, Instance,
+    fmu::{scratch, unpack_into, uri},
 };
 use std::{path::Path, sync::OnceLock};
 
@@ -128,6 +128,7 @@ fn a_location_without_our_files_in_it_is_not_used() {
 #[cfg(unix)]
 #[test]
 fn the_resources_are_found_beside_this_library_where_another_fmu_is_loaded_globally() {
+    use crate::support::{child, fmu::binary};
     use libloading::os::unix::{Library, RTLD_GLOBAL, RTLD_NOW};
     let name = "resources::the_resources_are_found_beside_this_library_where_another_fmu_is_loaded_globally";
     if child::run_alone(name).is_some() {

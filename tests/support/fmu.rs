@@ -112,7 +112,8 @@ impl Fmu {
         static FMU: OnceLock<Fmu> = OnceLock::new();
         FMU.get_or_init(|| {
             let folder = std::env::var_os(UNPACKED)
-                .map(PathBuf::from)
+                // With the drive, on Windows.
+                .map(|folder| std::path::absolute(folder).unwrap())
                 .unwrap_or_else(|| {
                     let folder = scratch().join("unpacked");
                     unpack_into(&folder);
