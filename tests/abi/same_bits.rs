@@ -17,7 +17,7 @@ const STEP: f64 = 0.01;
 /// Steps from another platform's state.
 const STEPS_ON: u32 = 10;
 /// Larger than usual, in rad: an emulator takes its time.
-const AZIMUTH_STEP: f64 = 0.15;
+const AZIMUTH_STEP: f64 = 0.3;
 
 /// A flight: an inflow model, and whether the blades flap.
 #[derive(Clone, Copy)]

@@ -16,8 +16,8 @@ use std::{
     time::Duration,
 };
 
-/// How long a program may take to say something about itself.
-const LIMIT: Duration = Duration::from_secs(60);
+/// How long a program may take to say something, also if cargo must first download crates.
+const LIMIT: Duration = Duration::from_secs(600);
 /// The oldest C library of Linux on which the library runs.
 const GLIBC: &str = "2.17";
 /// The oldest macOS.
@@ -151,7 +151,7 @@ impl Build {
 
     /// Runs a command of cargo that ends with the target.
     fn run(mut self, mut command: Command, folder: &Path) -> Result<Binary, Failure> {
-        for (from, to) in renamed_folders(folder)? {
+        for (from, to) in renamed_folders(self.target, folder)? {
             let flag = format!("--remap-path-prefix={}={to}", from.display());
             self.flags.push(flag);
         }
@@ -167,10 +167,10 @@ impl Build {
 
 /// The folders whose names would be in the library, where panics are, and what they are called
 /// there.
-fn renamed_folders(target: &Path) -> Result<Vec<(PathBuf, String)>, Failure> {
+fn renamed_folders(target: &str, target_folder: &Path) -> Result<Vec<(PathBuf, String)>, Failure> {
     let mut renamed = vec![
         (sources().to_path_buf(), "/helicopter-rotor".to_owned()),
-        (target.to_path_buf(), "/target".to_owned()),
+        (target_folder.to_path_buf(), "/target".to_owned()),
     ];
     // The standard library's source, if the component rust-src is installed.
     let system = said_by(compiler().args(["--print", "sysroot"]))?;
@@ -189,6 +189,8 @@ fn renamed_folders(target: &Path) -> Result<Vec<(PathBuf, String)>, Failure> {
             "--format-version",
             "1",
             "--locked",
+            "--filter-platform",
+            target,
             "--manifest-path",
         ])
         .arg(sources().join("Cargo.toml"));

@@ -7,6 +7,7 @@ use object::{
     macho::{self, MachHeader64},
     read::macho::{FatArch, LoadCommandVariant, MachHeader, MachOFatFile32},
 };
+use roxmltree::Document;
 use sha2::{Digest, Sha256};
 use std::{
     collections::BTreeSet,
@@ -254,6 +255,33 @@ fn every_binary_exports_the_functions_of_the_standard_and_nothing_else() {
         });
         assert_eq!(names.collect::<BTreeSet<_>>(), standard, "{platform}");
     }
+}
+
+/// Some importers for ARM Linux look for `linux64`, where others have the binary for x86-64.
+#[test]
+#[ignore = "needs the .fmu that .ci/platforms makes"]
+fn the_fmu_for_arm_has_the_same_binary_in_both_folders_and_says_so() {
+    let all = support::content(&for_all_platforms());
+    let library = scratch().join("arm.so");
+    fs::write(&library, &all["binaries/aarch64-linux/HelicopterRotor.so"]).unwrap();
+    let out = scratch().join("arm.fmu");
+    let given = binary("aarch64-linux", &library);
+    succeed(&mut package(&out, &["--platforms=arm", &given]));
+    let mut arm = support::content(&out);
+    for folder in ["linux64", "aarch64-linux"] {
+        let name = format!("binaries/{folder}/HelicopterRotor.so");
+        assert!(arm.remove(&name).unwrap() == all["binaries/aarch64-linux/HelicopterRotor.so"]);
+    }
+    let [xml, usual] = [&arm, &all].map(|files| {
+        let text = str::from_utf8(&files["modelDescription.xml"]).unwrap();
+        Document::parse(text).unwrap()
+    });
+    let [root, usual] = [&xml, &usual].map(|document| document.root_element());
+    let said = root.attribute("description").unwrap();
+    assert!(said.starts_with("For ARM Linux only: the binary in linux64 is for ARM. "));
+    assert!(said.ends_with(usual.attribute("description").unwrap()));
+    assert_eq!(root.attribute("guid"), usual.attribute("guid"));
+    assert!(arm.keys().all(|name| !name.starts_with("binaries/")));
 }
 
 /// Libraries that every system of its kind has: no runtime of a compiler among them.
