@@ -74,6 +74,14 @@ fn windows(folder: &Path) -> Result<Binary, Failure> {
         &format!("-Clinker={linker}"),
         "-Clink-arg=-Wl,--no-insert-timestamp",
     ]);
+    // It sorts the imports by the names of files with their folders. With a dot, the folder of its
+    // own import libraries comes before that of the build, wherever that is.
+    let library = said_by(Command::new(linker).arg("-print-file-name=libkernel32.a"))?;
+    if let Some((libraries, _)) = library.rsplit_once('/')
+        && libraries.starts_with('/')
+    {
+        build.flags([format!("-Lnative=/.{libraries}")]);
+    }
     build.run_cargo(folder)
 }
 
