@@ -52,9 +52,9 @@ fn without_cargo_the_message_says_what_to_do() {
 }
 
 #[test]
-fn a_library_of_another_fmu_is_refused() {
+fn a_file_that_is_no_library_is_refused() {
     let other = support::scratch().join("other.so");
-    fs::write(&other, "not a library of this FMU").unwrap();
+    fs::write(&other, "no library").unwrap();
     let out = support::scratch().join("other.fmu");
     let mut command = support::program();
     command
@@ -66,7 +66,7 @@ fn a_library_of_another_fmu_is_refused() {
     let message = support::fail(&mut command);
     assert!(!out.exists());
     assert!(
-        message.contains("other.so was built from another modelDescription.xml"),
+        message.contains("other.so is not a shared library that can be read"),
         "{message}"
     );
 }
