@@ -3,96 +3,66 @@
 
 mod flights;
 
-use flights::{AZIMUTH_STEP, Begin, Flight};
-use gungraun::{library_benchmark, library_benchmark_group, main};
-
-/// Hover in still air.
-const fn hover(settings: &'static str) -> Begin {
-    Begin {
-        settings,
-        forward: 0.0,
-        climb: 0.0,
-    }
-}
-
-/// Forward flight at an advance ratio of 0.2.
-const fn forward(settings: &'static str) -> Begin {
-    Begin {
-        settings,
-        forward: 15.3,
-        climb: 0.0,
-    }
-}
-
-/// Descent in the vortex ring state.
-const fn descent(settings: &'static str) -> Begin {
-    Begin {
-        settings,
-        forward: 0.0,
-        climb: -4.0,
-    }
-}
+use flights::{AZIMUTH_STEP, Begin, Flight, blades::Blades};
+use gungraun::{LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
 
 #[library_benchmark(setup = Flight::under_way)]
-#[bench::annulus(hover(""))]
-#[bench::closed_form(hover("models.inflow = annulusClosedForm"))]
-#[bench::four_elements(hover("models.inflow = annulusClosedForm; numerics.elements = 4"))]
+#[bench::annulus(Begin::hover(""))]
+#[bench::closed_form(Begin::hover("models.inflow = annulusClosedForm"))]
+#[bench::four_elements(Begin::hover("models.inflow = annulusClosedForm; numerics.elements = 4"))]
 fn hover_step(mut flight: Flight) -> Flight {
-    flight.set(8.1, 0.0);
-    flight.step(1e-3);
-    flight.get();
+    flight.exchange(1e-3);
     flight
 }
 
 #[library_benchmark(setup = Flight::under_way)]
-#[bench::annulus(hover(""))]
+#[bench::annulus(Begin::hover(""))]
 fn set_3_and_get_6(mut flight: Flight) -> Flight {
-    flight.set(8.0, 0.0);
+    flight.set(8.0);
     flight.get();
     flight
 }
 
 #[library_benchmark(setup = Flight::under_way)]
-#[bench::annulus_johnson(descent("models.descent = johnson"))]
-#[bench::annulus_measured(descent(""))]
+#[bench::annulus_johnson(Begin::descent("models.descent = johnson"))]
+#[bench::annulus_measured(Begin::descent(""))]
 fn descent_step(mut flight: Flight) -> Flight {
-    flight.set(8.1, 0.0);
-    flight.step(1e-3);
-    flight.get();
+    flight.exchange(1e-3);
     flight
 }
 
 #[library_benchmark(setup = Flight::under_way)]
-#[bench::pitt_peters(forward("flapping.enabled = true; models.inflow = pittPetersDynamic"))]
-#[bench::peters_he(forward("flapping.enabled = true; models.inflow = petersHe"))]
-#[bench::uniform(forward("flapping.enabled = true; models.inflow = uniform"))]
-#[bench::annulus(forward("flapping.enabled = true"))]
-#[bench::finite_blades(forward("flapping.enabled = true; models.inflow = finiteBlades"))]
-#[bench::prandtl_thrust(forward(
-    "flapping.enabled = true; models.inflow = pittPetersDynamic; models.tipLoss = prandtlThrust"
-))]
+#[bench::pitt_peters(Begin::flapping("pittPetersDynamic"))]
+#[bench::peters_he(Begin::flapping("petersHe"))]
+#[bench::uniform(Begin::flapping("uniform"))]
+#[bench::annulus(Begin::flapping("annulus"))]
+#[bench::finite_blades(Begin::flapping("finiteBlades"))]
+#[bench::prandtl_thrust(Begin::flapping("pittPetersDynamic; models.tipLoss = prandtlThrust"))]
 fn azimuth_step(mut flight: Flight) -> Flight {
-    flight.set(8.1, 15.3);
-    flight.step(AZIMUTH_STEP);
-    flight.get();
+    flight.exchange(AZIMUTH_STEP);
     flight
+}
+
+#[library_benchmark(setup = Blades::new)]
+#[bench::pitt_peters()]
+fn evaluation(mut blades: Blades) -> Blades {
+    blades.rates();
+    blades
 }
 
 #[library_benchmark(setup = Flight::begun)]
-#[bench::hover(hover(""))]
-#[bench::pitt_peters(forward("flapping.enabled = true; models.inflow = pittPetersDynamic"))]
+#[bench::hover(Begin::hover(""))]
+#[bench::pitt_peters(Begin::flapping("pittPetersDynamic"))]
 fn derivative(mut flight: Flight) -> Flight {
     flight.derivative();
     flight
 }
 
 #[library_benchmark(setup = Flight::prepared)]
-#[bench::default(hover(""))]
-#[bench::twelve_layers(hover("airfoil.file = airfoils/naca0015.polar"))]
-#[bench::flapping_pitt_peters(forward(
-    "flapping.enabled = true; models.inflow = pittPetersDynamic"
-))]
-#[bench::flapping_uniform(forward("flapping.enabled = true; models.inflow = uniform"))]
+#[bench::default(Begin::hover(""))]
+#[bench::twelve_layers(Begin::hover("airfoil.file = airfoils/naca0015.polar"))]
+#[bench::flapping_pitt_peters(Begin::flapping("pittPetersDynamic"))]
+#[bench::flapping_uniform(Begin::flapping("uniform"))]
 fn start(mut flight: Flight) -> Flight {
     flight.initialize();
     flight
@@ -105,8 +75,14 @@ library_benchmark_group!(
         set_3_and_get_6,
         descent_step,
         azimuth_step,
+        evaluation,
         derivative,
         start
     ]
 );
-main!(library_benchmark_groups = rows);
+main!(
+    // Valgrind counts each byte of `rep movsb`, with which some processors copy, as an instruction.
+    config = LibraryBenchmarkConfig::default()
+        .env("GLIBC_TUNABLES", "glibc.cpu.x86_rep_movsb_threshold=16777216");
+    library_benchmark_groups = rows
+);

@@ -1,5 +1,7 @@
 //! The flights whose cost is measured, through the C interface as an importer has it.
 
+pub mod blades;
+
 use helicopter_rotor::{
     block::variables::{GUID, REALS, STRINGS, Variable},
     fmi2::{co_simulation::*, creation::*, directional::*, get_set::*, life_cycle::*, types::*},
@@ -16,16 +18,47 @@ pub const AZIMUTH_STEP: f64 = 3.0 / (6.0 * RPM);
 pub struct Flight {
     component: fmi2Component,
     time: f64,
+    forward: f64,
+    is_up: bool,
     inputs: [fmi2ValueReference; 3],
     outputs: [fmi2ValueReference; 6],
 }
 
 /// A flight to begin: parameters as in `settings`, forward speed and climb, m/s.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct Begin {
-    pub settings: &'static str,
-    pub forward: f64,
-    pub climb: f64,
+    settings: String,
+    forward: f64,
+    climb: f64,
+}
+
+impl Begin {
+    /// Hover in still air.
+    pub fn hover(settings: &str) -> Self {
+        Self {
+            settings: settings.to_owned(),
+            forward: 0.0,
+            climb: 0.0,
+        }
+    }
+
+    /// Descent near the vortex ring state.
+    pub fn descent(settings: &str) -> Self {
+        Self {
+            climb: -4.0,
+            ..Self::hover(settings)
+        }
+    }
+
+    /// Forward flight at an advance ratio of 0.2 with blades that flap, in an inflow model.
+    pub fn flapping(inflow: &str) -> Self {
+        Self {
+            forward: 15.3,
+            ..Self::hover(&format!(
+                "flapping.enabled = true; models.inflow = {inflow}"
+            ))
+        }
+    }
 }
 
 fn reference<T>(table: &[Variable<T>], name: &str) -> fmi2ValueReference {
@@ -44,7 +77,7 @@ impl Flight {
         let (name, guid) = (text("rotor"), text(GUID));
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/resources");
         let resources = text(&format!("file://{folder}"));
-        let settings = text(begin.settings);
+        let settings = text(&begin.settings);
         // SAFETY: the strings live during the calls.
         unsafe {
             let callbacks = fmi2CallbackFunctions {
@@ -69,6 +102,8 @@ impl Flight {
             let mut flight = Self {
                 component,
                 time: 0.0,
+                forward: begin.forward,
+                is_up: false,
                 inputs: ["collective", "rpm", "velocity[1]"].map(|n| reference(&REALS, n)),
                 outputs: [
                     "force[1]",
@@ -82,7 +117,7 @@ impl Flight {
             };
             let climb = reference(&REALS, "velocity[3]");
             ok(fmi2SetReal(component, &climb, 1, &begin.climb));
-            flight.set(8.0, begin.forward);
+            flight.set(8.0);
             ok(fmi2SetupExperiment(component, 0, 0.0, 0.0, 0, 0.0));
             ok(fmi2EnterInitializationMode(component));
             flight
@@ -105,6 +140,16 @@ impl Flight {
         flight
     }
 
+    /// Moves the collective to and fro, advances, and gets the outputs: what a system model does
+    /// in each of its steps.
+    #[inline(never)]
+    pub fn exchange(&mut self, duration: f64) -> [f64; 6] {
+        self.is_up = !self.is_up;
+        self.set(if self.is_up { 8.1 } else { 8.0 });
+        self.step(duration);
+        self.get()
+    }
+
     /// Ends the initialization.
     pub fn initialize(&mut self) {
         // SAFETY: the component lives.
@@ -112,9 +157,9 @@ impl Flight {
         self.get();
     }
 
-    /// Sets three inputs: collective, deg; rotor speed; forward speed, m/s.
-    pub fn set(&mut self, collective: f64, forward: f64) {
-        let values = [black_box(collective).to_radians(), RPM, forward];
+    /// Sets three inputs: collective, deg; rotor speed; forward speed.
+    pub fn set(&mut self, collective: f64) {
+        let values = [black_box(collective).to_radians(), RPM, self.forward];
         // SAFETY: three references and values.
         ok(unsafe { fmi2SetReal(self.component, self.inputs.as_ptr(), 3, values.as_ptr()) });
     }
