@@ -91,6 +91,7 @@ pub fn solve<L: Lanes>(
         element.tip_loss_factor(sine)
     };
     let thrust = |v: L| {
+        element.count_work();
         let (_, through, speed) = flow_with(v);
         let alpha = pitch - through.atan2(section.in_plane);
         let lift = element.lift_coefficient(alpha, speed);
@@ -98,7 +99,6 @@ pub fn solve<L: Lanes>(
         L::select(speed.values().negligible(0.0), L::nil(), thrust)
     };
     let mass_flow = |v: L| {
-        element.count_work();
         element
             .work
             .count(momentum.descent.work_of(section.through, v));
