@@ -30,8 +30,8 @@ ROWS = {
     "azimuth_step peters_he": "the same with Peters & He's wake",
     "azimuth_step uniform": "the same in uniform static inflow",
     "azimuth_step annulus": "the same in annuli",
-    "azimuth_step finite_blades": "the same, each blade in its own air",
-    "azimuth_step prandtl_thrust": "with Pitt & Peters, and lift that ends by the thrust",
+    "azimuth_step finite_blades": "the same by momentum theory blade by blade",
+    "azimuth_step prandtl_thrust": "with Pitt & Peters, and tip loss by Prandtl's thrust formula",
     "descent_step annulus_measured": "descent at 4 m/s, annuli, measured mass flow",
     "descent_step annulus_johnson": "the same by Johnson's vortex ring model",
     "start default": "start in hover, annuli",
@@ -40,7 +40,7 @@ ROWS = {
     "start flapping_uniform": "the same in uniform static inflow",
     "derivative hover": "one directional derivative in hover, annuli",
     "derivative pitt_peters": "the same at the periodic start",
-    "hover_step four_elements": "a step of four elements: the fixed part",
+    "hover_step four_elements": "hover by the closed form, 4 elements: mostly the fixed part",
     "set_3_and_get_6 annulus": "set 3 and get 6 alone",
 }
 

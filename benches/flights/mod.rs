@@ -42,7 +42,7 @@ impl Begin {
         }
     }
 
-    /// Descent near the vortex ring state.
+    /// Descent in the vortex ring state.
     pub fn descent(settings: &str) -> Self {
         Self {
             climb: -4.0,

@@ -108,11 +108,11 @@ pub struct Sweep<'a, L: Lanes> {
     pub block: &'a Block,
     /// The blades' positions, and the flow there.
     pub blades: &'a [BladeFlow<L::One>],
-    /// One for each position.
+    /// Sums over the elements, one entry for each position.
     pub sums: &'a mut [BladeSums<L>],
     wanted: Wanted,
     counts: L::Real,
-    /// Number of positions that `loads` averages: all, or only the first, that of blade 1.
+    /// Number of positions averaged in `mean`: all, or only the first, that of blade 1.
     shown: usize,
     /// Number of positions at which each element is stalled.
     pub stalled: L::Real,
@@ -120,8 +120,8 @@ pub struct Sweep<'a, L: Lanes> {
 }
 
 impl<'a, L: Lanes> Sweep<'a, L> {
-    /// `is_individual`: whether the positions are those of the blades, so that `loads` are blade
-    /// 1's.
+    /// `is_individual`: whether the positions are those of the blades; `mean` is then that of blade
+    /// 1.
     #[inline(always)]
     pub fn new(
         (element, block): (&'a Element<'a, L>, &'a Block),

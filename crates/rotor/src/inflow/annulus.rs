@@ -44,6 +44,11 @@
 //! Otherwise the root on the other side of phi = 0 is taken, which continues hover: the air is
 //! pushed down through the disc (plain momentum theory, which is no longer a good theory there).
 //!
+//! # Method
+//!
+//! In hover and climb below stall, where R has one root, Newton's method from the closed form; else
+//! the bracket.
+//!
 //! # Edgewise flow, cyclic pitch and angular velocity of the hub
 //!
 //! The induced velocity is the same all around the annulus and perpendicular to the mean flow W.
@@ -100,8 +105,8 @@ const TOLERANCE: f64 = 1e-14;
 /// rad.
 const FAR_END: f64 = 1e-12;
 
-/// Newton's method has found the inflow angle where its last step is at most this, rad: what is
-/// left is about the square of it, or a few percent of it if a corner of the table lies in between.
+/// Largest last step, rad, at which Newton's method counts as converged. The remaining error is
+/// about its square, or a few percent of it if a corner of the table lies within the step.
 const LAST_STEP: f64 = 1e-8;
 
 /// Bound on Newton's steps; three are usual.
@@ -351,9 +356,9 @@ impl<L: Lanes> Undisturbed<L> {
     }
 }
 
-/// Hover and climb by Newton's method; none if it does not find all angles, or where there may be
-/// more than one: only between phi0 and stall the residual grows with phi (the momentum grows and
-/// the lift falls), and has one root.
+/// The inflow in hover and climb by Newton's method. Between phi0 and stall R grows with phi,
+/// because the momentum grows and the lift falls, so it has one root. None elsewhere, or if any
+/// lane does not converge.
 #[inline(always)]
 fn in_axial_flow<L: Lanes>(
     element: &Element<L>,
@@ -364,9 +369,9 @@ fn in_axial_flow<L: Lanes>(
     let without = element.pitch - undisturbed.angle;
     let climb = L::splat(flow.climb);
     let is_simple = momentum.ground.is_far()
-        && momentum.is_plain(climb, without).all()
         && (!(climb * without).values().is_below(0.0)).all()
         && undisturbed.speed.values().is_above(0.0).all()
+        && undisturbed.cos.values().is_above(0.0).all()
         && (!without.values().negligible(0.0)).all()
         && element.is_unstalled(without.values()).all();
     if !is_simple {
@@ -395,9 +400,12 @@ fn in_axial_flow<L: Lanes>(
                 break;
             }
         }
-        // The root lies on the side to which the lift pushes; NaN lies nowhere.
-        let pushed = (angle - undisturbed.angle.re) * without.values();
-        let is_inside = pushed.is_above(0.0);
+        // Accepted only on the side of the sign of the angle of attack and within 90 deg of phi0,
+        // where R has one root; NaN lies nowhere. Where a cambered section lifts the other way, the
+        // bracket decides.
+        let distance = angle - undisturbed.angle.re;
+        let is_inside =
+            (distance * without.values()).is_above(0.0) & distance.abs().is_below(FRAC_PI_2);
         if !(step.negligible(LAST_STEP) & is_inside).all() {
             return None;
         }
@@ -445,6 +453,7 @@ pub fn solve<L: Lanes>(
     momentum: &Momentum<L::One>,
 ) -> Result<AnnulusInflow<L>, RootError> {
     let undisturbed = Undisturbed::of(element, flow);
+    // In all lanes or in none.
     if undisturbed.speed.values().negligible(0.0).any() {
         return Ok(AnnulusInflow::zero());
     }
@@ -525,7 +534,7 @@ fn root<V: Plain>(start: End<V>, pitch: V, equation: impl Fn(V) -> V) -> Result<
     let side = V::select(start.residual.is_below(0.0), V::splat(1.0), V::splat(-1.0));
     let is_descent = (side * start.at).is_below(0.0) & !is_nothing;
     let mut from = start;
-    let mut is_windmill = !is_nothing & is_nothing;
+    let mut is_windmill = V::Mask::all_lanes(false);
     if is_descent.any() {
         for part in [0.5, 0.375, 0.25, 0.125, 0.0] {
             let is_open = is_descent & !is_windmill;

@@ -26,9 +26,10 @@ pub struct DiscLoads<S = f64> {
     pub(crate) flux: S,
     /// Sum over the elements of the radius, m.
     pub(crate) area: f64,
-    /// Number of stalled elements, averaged over the positions.
+    /// Number of stalled elements, averaged over the positions; 0 unless the distribution is
+    /// wanted.
     pub(crate) stalled: f64,
-    /// r/R of the outermost element that is stalled anywhere.
+    /// r/R of the outermost element that is stalled anywhere; 0 unless the distribution is wanted.
     pub(crate) stalled_radius: f64,
 }
 
@@ -104,7 +105,7 @@ impl<S: Scalar> Kernel for AllElements<'_, S> {
                 sweep.write(mean_induced, elements);
             }
         }
-        let width = disc.blade.width();
+        let element_width = disc.blade.width();
         let mut loads = DiscLoads {
             force: Vector3::zeros(),
             moment: Vector3::zeros(),
@@ -118,7 +119,7 @@ impl<S: Scalar> Kernel for AllElements<'_, S> {
         for (sum, tau) in loads.inflow_loading.iter_mut().zip(&loading) {
             *sum = tau.sum_of_lanes();
         }
-        let share = f64::from(disc.blade.geometry.blades) / blades.len() as f64 * width;
+        let share = f64::from(disc.blade.geometry.blades) / blades.len() as f64 * element_width;
         for (k, (blade, sums)) in blades.iter().zip(sums.iter()).enumerate() {
             let Azimuth { sin, cos } = blade.azimuth;
             let total = |sum: S::In<V>| sum.sum_of_lanes() * share;
@@ -134,7 +135,7 @@ impl<S: Scalar> Kernel for AllElements<'_, S> {
                 up * cos - twisting * sin,
                 -total(sums.torque),
             );
-            loads.hinge_moments[k] = sums.hinge_moment.sum_of_lanes() * width;
+            loads.hinge_moments[k] = sums.hinge_moment.sum_of_lanes() * element_width;
         }
         Ok(loads)
     }

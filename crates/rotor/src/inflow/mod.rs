@@ -4,7 +4,7 @@
 //! one `match`, so that the compiler lists what a new model has to define:
 //!
 //! * a model in which each element finds its induced velocity is a file and an arm of
-//!   `ElementInflow::load`;
+//!   `Induction::load`;
 //! * a linear distribution over the disc is an arm of `Skew::coefficients`;
 //! * a model with states is a file and an arm in each method of `Inflow`.
 
@@ -248,7 +248,7 @@ impl<S: Scalar> Induction<'_, S> {
         loading: &mut [L],
     ) -> Result<L, SolveError> {
         let blades = sweep.blades;
-        let block = sweep.block.first / LANES;
+        let block_index = sweep.block.first / LANES;
         let radius_ratio = sweep.element.radius_ratio();
         let failed = |cause| SolveError::Annulus {
             radius_ratio: radius_ratio.lane(0),
@@ -275,7 +275,7 @@ impl<S: Scalar> Induction<'_, S> {
                 (InducedAt::Annulus, AnnulusInflow::zero(), mean)
             }
             Self::Series { wake, states, .. } => {
-                let mean = wake.mean_at(states, block);
+                let mean = wake.mean_at(states, block_index);
                 (InducedAt::Annulus, AnnulusInflow::zero(), mean)
             }
         };
@@ -294,7 +294,7 @@ impl<S: Scalar> Induction<'_, S> {
                     wake,
                     states,
                     harmonics,
-                } => Induced::axial(wake.velocity(states, block, &harmonics[position])),
+                } => Induced::axial(wake.velocity(states, block_index, &harmonics[position])),
             };
             let thrust = sweep.load_at(position, at, induced);
             if let Self::Series {
@@ -306,7 +306,7 @@ impl<S: Scalar> Induction<'_, S> {
                 let share = f64::from(blade.geometry.blades) / blades.len() as f64;
                 let scale = S::constant(share * blade.width());
                 let force = thrust * L::splat(scale / (blade.air.density * (radius * radius)));
-                wake.add_load(loading, block, &harmonics[position], force);
+                wake.add_load(loading, block_index, &harmonics[position], force);
             }
         }
         Ok(mean)

@@ -23,11 +23,11 @@ use crate::{
 const TOLERANCE: f64 = 1e-13;
 
 /// The induced velocity is found where its last change is at most this part of the largest speed in
-/// the problem: what is left is some 1e-4 of it.
+/// the problem: what is left is that times the relative error of the chord's slope.
 const LAST_STEP: f64 = 1e-9;
 
-/// Bound on the lines that stand for the thrust; three or four are usual.
-const MAX_LINES: u32 = 8;
+/// Bound on the chords that stand for the thrust; three or four are usual.
+const MAX_CHORDS: u32 = 8;
 
 /// Bound on the secants of the momentum equation, and the relative change that is rounding.
 const MAX_SECANTS: u32 = 30;
@@ -67,11 +67,10 @@ pub fn mean_velocity<L: Lanes>(
     Ok(L::at_roots(found, &balance))
 }
 
-/// The v0 of hover and climb, where the thrust falls steadily with the induced velocity; none
-/// where the thrust points against the climb, or if the search does not converge.
-///
-/// The thrust, which is expensive, is nearly linear in v0: momentum theory is solved for the line
-/// through its last two values.
+/// v0 in hover and climb, from a chord through the last two values of the thrust, which is
+/// expensive and nearly linear in v0. None in descent, where a chord does not fall, or without
+/// convergence; the bracket then decides. Where stalled blades give several balances, it may find
+/// another one than the bracket.
 fn by_linear_thrust<V: Plain>(
     mass_flow: impl Fn(V) -> V,
     thrust: impl Fn(V) -> V,
@@ -83,21 +82,27 @@ fn by_linear_thrust<V: Plain>(
     if !is_simple.all() {
         return None;
     }
-    // About half of the thrust is lost to the induced velocity.
+    // First guess: the inflow takes away about half of the thrust at v0 = 0.
     let start = (last.1.abs() * 0.5).sqrt().with_sign_of(last.1);
     let mut at = by_secants(|v| v * 2.0 * mass_flow(v) - last.1 * 0.5, start)?;
-    for _ in 0..MAX_LINES {
+    let first_thrust = last.1;
+    let mut is_found = V::Mask::all_lanes(false);
+    for _ in 0..MAX_CHORDS {
         let here = thrust(at);
         let slope = (here - last.1) / (at - last.0);
-        if !slope.is_below(0.0).all() {
+        if !(is_found | slope.is_below(0.0)).all() {
             return None;
         }
-        let line = |v: V| here + slope * (v - at);
-        let next = by_secants(|v| v * 2.0 * mass_flow(v) - line(v), at)?;
-        let is_found = !(next - at).abs().above(scale * LAST_STEP);
+        // What is found stays.
+        let slope = V::select(is_found, V::splat(-1.0), slope);
+        let chord = |v: V| here + slope * (v - at);
+        let next = by_secants(|v| v * 2.0 * mass_flow(v) - chord(v), at)?;
+        let next = V::select(is_found, at, next);
+        is_found = is_found | !(next - at).abs().above(scale * LAST_STEP);
         (last, at) = ((at, here), next);
         if is_found.all() {
-            return Some(at);
+            let has_sign = (at * first_thrust).is_above(0.0);
+            return has_sign.all().then_some(at);
         }
     }
     None

@@ -1,13 +1,14 @@
 //! Elementary functions of multiply, add, divide and square root, which have the same bits in any
 //! lanes and on every platform.
 //!
-//! The polynomials and rational functions are those of FDLIBM (Sun Microsystems 1993: sine, cosine,
-//! inverse cosine, logarithm) and of Cephes (Moshier 1992: inverse tangent); the exponential is its
-//! Taylor series on half of ln 2. Low words of intermediate results are left out, so that results
-//! are within 2 ulp of the exact ones instead of 1; the tests hold them to that.
+//! The polynomials and rational functions are those of FDLIBM (Sun Microsystems 1993, k_sin.c,
+//! k_cos.c, e_acos.c, e_log.c) and of Cephes (Moshier 1992, atan.c); the exponential is its Taylor
+//! series up to r^13 for |r| <= ln(2)/2. Low words of intermediate results are left out, so that
+//! results are within 2 ulp of those of `libm` instead of 1; the tests hold them to that.
 //!
 //! A few arguments are outside of what the lanes are made for (angles beyond 10^5 rad, logarithms
-//! of subnormal numbers). There `libm` takes each lane.
+//! of subnormal numbers). If any lane is outside, `libm` computes all lanes: the last bits of a
+//! lane can depend on its neighbours, but not on the processor.
 
 // The digits are those in print.
 #![allow(clippy::excessive_precision)]
@@ -19,7 +20,7 @@ use core::f64::consts::{FRAC_2_PI, FRAC_PI_2, FRAC_PI_4, LOG2_E, PI};
 /// bits.
 pub const INTEGERS: f64 = 6_755_399_441_055_744.0;
 
-/// Bits of the greatest number below sqrt(1/2), whose mantissa begins each part of `split`.
+/// Bits of the number nearest to sqrt(1/2), at which the mantissas of `split` begin.
 pub const SQRT_HALF: u64 = 0x3fe6_a09e_667f_3bcd;
 
 /// Takes the bits of `SQRT_HALF` to those of 1.
@@ -103,10 +104,10 @@ pub fn sin_cos<V: Plain>(x: V) -> (V, V) {
     let turns = (quarter * 0.25 + INTEGERS) - INTEGERS;
     let part = quarter - turns * 4.0; // -2, -1, 0, 1 or 2
     let is_odd = (part.abs() - 1.0).negligible(0.0);
-    let is_second_half = part.abs().is_above(1.5);
+    let is_half_turn = part.abs().is_above(1.5);
     let swapped = (V::select(is_odd, cos, sin), V::select(is_odd, sin, cos));
-    let sine_negative = is_second_half | part.is_below(-0.5);
-    let cosine_negative = is_second_half | (is_odd & part.is_above(0.5));
+    let sine_negative = is_half_turn | part.is_below(-0.5);
+    let cosine_negative = is_half_turn | (is_odd & part.is_above(0.5));
     (
         V::select(sine_negative, -swapped.0, swapped.0),
         V::select(cosine_negative, -swapped.1, swapped.1),
@@ -135,7 +136,7 @@ pub fn acos<V: Plain>(y: V) -> V {
     V::select(is_small, near, far)
 }
 
-/// e to the power of x: 0 below -708, and beyond 709 that of 709.
+/// e to the power of x, from -708 to 709. Below it is 0; above, that of 709.
 #[inline(always)]
 pub fn exp<V: Plain>(x: V) -> V {
     let is_gone = x.is_below(EXPONENTS.0);

@@ -27,7 +27,8 @@ pub trait Mask:
 
 /// One number or several side by side, plain or dual. Angles are in rad.
 ///
-/// Outside its domain a function gives NaN in that lane; no function panics.
+/// Outside its domain a mathematical function gives NaN in that lane and does not panic. `lane`
+/// needs an index below `COUNT`.
 pub trait Lanes:
     Copy
     + Debug
@@ -77,7 +78,7 @@ pub trait Lanes:
     fn sin_cos(self) -> (Self, Self);
     /// Inverse cosine, 0 to pi rad, of -1 to 1.
     fn acos(self) -> Self;
-    /// e to the power of `self`: 0 below -708, and beyond 709 that of 709.
+    /// e to the power of `self`, from -708 to 709. Below it is 0; above, that of 709.
     fn exp(self) -> Self;
     /// Natural logarithm of a positive number.
     fn ln(self) -> Self;
@@ -154,6 +155,7 @@ pub trait Lanes:
     /// Sum of the lanes in a fixed order: of four, (1 + 2) + (3 + 4).
     #[inline(always)]
     fn sum_of_lanes(self) -> Self::One {
+        const { assert!(Self::COUNT == 1 || Self::COUNT == LANES) };
         if Self::COUNT == 1 {
             return self.lane(0);
         }

@@ -1,4 +1,4 @@
-//! Numbers side by side: one source text for one number and for four, plain or dual.
+//! Numbers side by side: one source for one number and for four, plain or dual.
 //!
 //! The formulas of a blade element are the same for every element, so they are written once for
 //! any [`Lanes`]: a single number, or four neighbouring elements at a time in the registers of the
@@ -7,14 +7,14 @@
 //! depend on the processor:
 //!
 //! ```text
-//! f64                   one number: the definition
-//! Pair<Pair<f64>>       four, one by one: any processor
+//! f64                   one number, outside of the blocks of elements
+//! Pair<Pair<f64>>       four, one after the other, on any processor: the definition
 //! Pair<Sse2>            four in two registers: every x86-64
 //! Avx2                  four in one register: chosen at run time
 //! ```
 //!
-//! A branch becomes a choice between two values that are both computed ([`Lanes::select`]). Where
-//! an expensive part is needed in few flows, it is left out if no lane needs it.
+//! A branch becomes a choice between two values that are both computed ([`Lanes::select`]). An
+//! expensive branch is skipped if no lane needs it. Iterations end together for all lanes.
 //!
 //! Functions of lanes are `#[inline(always)]`: only then does the compiler use the wide registers
 //! of the caller, which [`run()`] chooses.

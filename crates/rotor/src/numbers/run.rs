@@ -19,7 +19,7 @@ pub enum Width {
     Widest,
     /// What every processor of this architecture has.
     Portable,
-    /// One number at a time; for tests.
+    /// Four numbers one after the other; for tests.
     #[cfg(test)]
     Single,
 }

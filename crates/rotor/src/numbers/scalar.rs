@@ -1,6 +1,6 @@
 //! The number type of the physics: a plain double or, where derivatives are wanted, a dual number.
 //!
-//! The elementary functions come from `lanes::elementary` and from the `libm` crate: those of the
+//! The elementary functions come from `numbers::elementary` and from the `libm` crate: those of the
 //! standard library differ in their last bits between platforms, and the same FMU must give the
 //! same bits on all of them.
 //!
