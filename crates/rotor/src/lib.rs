@@ -46,6 +46,7 @@
 //!   `data_range`
 //! * what it computes: `evaluation`, `loads`, `lift_end`, `tip_path`, `hub_loads`, `rates`,
 //!   `response`, `step`, `stiff_step`, `start`
+//! * a test of all this in every width of lanes: `widths`
 
 #![warn(missing_docs)]
 // A new model makes the compiler list what it has to define.

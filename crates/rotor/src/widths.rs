@@ -2,15 +2,21 @@
 //! derivatives.
 
 use crate::{
-    Blades, Drive, HubLoads, Models, OperatingPoint, Rotor, SolveError, State, Workspace,
     air::Air,
     airfoil::{Airfoil, Lift, SectionModel},
     compressibility::Compressibility,
+    error::SolveError,
     flapping::{BladeMass, Freedom, Hinge, Stops},
     geometry::{Elements, Geometry, Station},
+    hub_loads::HubLoads,
     inflow::{Descent, ElementInflow, GroundEffect, Inflow, Number, Skew},
+    models::{Blades, Models},
     numbers::{Dual64, Width},
+    operating_point::{Drive, OperatingPoint},
+    rotor::Rotor,
+    state::State,
     tip_loss::TipLoss,
+    workspace::Workspace,
 };
 use nalgebra::Vector3;
 use std::{cell::Cell, path::Path};
