@@ -182,6 +182,57 @@ pub trait Plain: Lanes<One = f64, Real = Self> + PartialEq + 'static {
     fn rows(table: &[[f64; 4]], index: &[usize; LANES]) -> [Self; 4];
 }
 
+/// What all kinds of plain lanes have alike: functions of `Lanes` in terms of the others.
+macro_rules! alike_in_plain_lanes {
+    () => {
+        #[inline(always)]
+        fn real(values: Self) -> Self {
+            values
+        }
+        #[inline(always)]
+        fn values(self) -> Self {
+            self
+        }
+        #[inline(always)]
+        fn times(self, factor: Self) -> Self {
+            self * factor
+        }
+        #[inline(always)]
+        fn plus_real(self, term: Self) -> Self {
+            self + term
+        }
+        #[inline(always)]
+        fn sin_cos(self) -> (Self, Self) {
+            $crate::numbers::elementary::sin_cos(self)
+        }
+        #[inline(always)]
+        fn acos(self) -> Self {
+            $crate::numbers::elementary::acos(self)
+        }
+        #[inline(always)]
+        fn exp(self) -> Self {
+            $crate::numbers::elementary::exp(self)
+        }
+        #[inline(always)]
+        fn ln(self) -> Self {
+            $crate::numbers::elementary::ln(self)
+        }
+        #[inline(always)]
+        fn length(self, other: Self) -> Self {
+            Lanes::sqrt(self * self + other * other)
+        }
+        #[inline(always)]
+        fn atan2(self, x: Self) -> Self {
+            $crate::numbers::elementary::atan2(self, x)
+        }
+        #[inline(always)]
+        fn at_roots(root: Self, _equation: &impl $crate::numbers::Equation<Self>) -> Self {
+            root
+        }
+    };
+}
+pub(super) use alike_in_plain_lanes;
+
 /// An equation in one unknown, in every lane: its residual.
 pub trait Equation<L> {
     /// The residual.

@@ -34,6 +34,8 @@ mod scalar;
 #[cfg(target_arch = "x86_64")]
 mod sse2;
 
+use lanes::alike_in_plain_lanes;
+
 pub use constant::C;
 pub use dual::{Dual, Dual64};
 pub use lanes::{Equation, LANES, Lanes, Mask, PerLane, Plain, converted, in_lanes, per_lane};

@@ -1,6 +1,6 @@
 //! One plain number.
 
-use super::{Equation, LANES, Lanes, Mask, Plain, elementary};
+use super::{LANES, Lanes, Mask, Plain, alike_in_plain_lanes, elementary};
 
 impl Mask for bool {
     const COUNT: usize = 1;
@@ -28,6 +28,8 @@ impl Lanes for f64 {
     type Mask = bool;
     const COUNT: usize = 1;
 
+    alike_in_plain_lanes!();
+
     #[inline(always)]
     fn splat(number: f64) -> Self {
         number
@@ -39,22 +41,6 @@ impl Lanes for f64 {
     #[inline(always)]
     fn lane(self, _lane: usize) -> f64 {
         self
-    }
-    #[inline(always)]
-    fn real(values: Self) -> Self {
-        values
-    }
-    #[inline(always)]
-    fn values(self) -> Self {
-        self
-    }
-    #[inline(always)]
-    fn times(self, factor: Self) -> Self {
-        self * factor
-    }
-    #[inline(always)]
-    fn plus_real(self, term: Self) -> Self {
-        self + term
     }
     #[inline(always)]
     fn below(self, limit: Self) -> bool {
@@ -73,42 +59,14 @@ impl Lanes for f64 {
         if condition { yes } else { no }
     }
     #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        elementary::sin_cos(self)
-    }
-    #[inline(always)]
-    fn acos(self) -> Self {
-        elementary::acos(self)
-    }
-    #[inline(always)]
-    fn exp(self) -> Self {
-        elementary::exp(self)
-    }
-    #[inline(always)]
-    fn ln(self) -> Self {
-        elementary::ln(self)
-    }
-    #[inline(always)]
     fn sqrt(self) -> Self {
         // The hardware's, which IEEE 754 rounds correctly.
         #[allow(clippy::disallowed_methods)]
         f64::sqrt(self)
     }
     #[inline(always)]
-    fn length(self, other: Self) -> Self {
-        Lanes::sqrt(self * self + other * other)
-    }
-    #[inline(always)]
-    fn atan2(self, x: Self) -> Self {
-        elementary::atan2(self, x)
-    }
-    #[inline(always)]
     fn abs(self) -> Self {
         f64::abs(self)
-    }
-    #[inline(always)]
-    fn at_roots(root: Self, _equation: &impl Equation<Self>) -> Self {
-        root
     }
 }
 

@@ -1,6 +1,6 @@
 //! Two groups of lanes, computed one after the other.
 
-use super::{Equation, LANES, Lanes, Mask, Plain, elementary};
+use super::{LANES, Lanes, Mask, Plain, alike_in_plain_lanes};
 use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// Twice the lanes of `P`: the first ones, and those after them.
@@ -119,6 +119,8 @@ impl<P: Plain> Lanes for Pair<P> {
     type Mask = PairMask<P::Mask>;
     const COUNT: usize = 2 * P::COUNT;
 
+    alike_in_plain_lanes!();
+
     #[inline(always)]
     fn splat(number: f64) -> Self {
         Self(P::splat(number), P::splat(number))
@@ -135,22 +137,6 @@ impl<P: Plain> Lanes for Pair<P> {
         } else {
             self.1.lane(lane - P::COUNT)
         }
-    }
-    #[inline(always)]
-    fn real(values: Self) -> Self {
-        values
-    }
-    #[inline(always)]
-    fn values(self) -> Self {
-        self
-    }
-    #[inline(always)]
-    fn times(self, factor: Self) -> Self {
-        self * factor
-    }
-    #[inline(always)]
-    fn plus_real(self, term: Self) -> Self {
-        self + term
     }
     #[inline(always)]
     fn below(self, limit: Self) -> Self::Mask {
@@ -172,40 +158,12 @@ impl<P: Plain> Lanes for Pair<P> {
         )
     }
     #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        elementary::sin_cos(self)
-    }
-    #[inline(always)]
-    fn acos(self) -> Self {
-        elementary::acos(self)
-    }
-    #[inline(always)]
-    fn exp(self) -> Self {
-        elementary::exp(self)
-    }
-    #[inline(always)]
-    fn ln(self) -> Self {
-        elementary::ln(self)
-    }
-    #[inline(always)]
     fn sqrt(self) -> Self {
         Self(self.0.sqrt(), self.1.sqrt())
     }
     #[inline(always)]
-    fn length(self, other: Self) -> Self {
-        Lanes::sqrt(self * self + other * other)
-    }
-    #[inline(always)]
-    fn atan2(self, x: Self) -> Self {
-        elementary::atan2(self, x)
-    }
-    #[inline(always)]
     fn abs(self) -> Self {
         Self(self.0.abs(), self.1.abs())
-    }
-    #[inline(always)]
-    fn at_roots(root: Self, _equation: &impl Equation<Self>) -> Self {
-        root
     }
 }
 

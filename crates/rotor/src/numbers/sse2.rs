@@ -1,6 +1,6 @@
 //! Two plain numbers in a register of SSE2, which every x86-64 processor has.
 
-use super::{Equation, LANES, Lanes, Mask, Plain, elementary};
+use super::{LANES, Lanes, Mask, Plain, alike_in_plain_lanes, elementary};
 use core::{
     arch::x86_64::*,
     fmt,
@@ -133,6 +133,8 @@ impl Lanes for Sse2 {
     type Mask = Sse2Mask;
     const COUNT: usize = 2;
 
+    alike_in_plain_lanes!();
+
     #[inline(always)]
     fn splat(number: f64) -> Self {
         // SAFETY: as above.
@@ -145,22 +147,6 @@ impl Lanes for Sse2 {
     #[inline(always)]
     fn lane(self, lane: usize) -> f64 {
         self.store()[lane]
-    }
-    #[inline(always)]
-    fn real(values: Self) -> Self {
-        values
-    }
-    #[inline(always)]
-    fn values(self) -> Self {
-        self
-    }
-    #[inline(always)]
-    fn times(self, factor: Self) -> Self {
-        self * factor
-    }
-    #[inline(always)]
-    fn plus_real(self, term: Self) -> Self {
-        self + term
     }
     #[inline(always)]
     fn below(self, limit: Self) -> Sse2Mask {
@@ -186,42 +172,14 @@ impl Lanes for Sse2 {
         })
     }
     #[inline(always)]
-    fn sin_cos(self) -> (Self, Self) {
-        elementary::sin_cos(self)
-    }
-    #[inline(always)]
-    fn acos(self) -> Self {
-        elementary::acos(self)
-    }
-    #[inline(always)]
-    fn exp(self) -> Self {
-        elementary::exp(self)
-    }
-    #[inline(always)]
-    fn ln(self) -> Self {
-        elementary::ln(self)
-    }
-    #[inline(always)]
     fn sqrt(self) -> Self {
         // SAFETY: as above.
         Self(unsafe { _mm_sqrt_pd(self.0) })
     }
     #[inline(always)]
-    fn length(self, other: Self) -> Self {
-        Lanes::sqrt(self * self + other * other)
-    }
-    #[inline(always)]
-    fn atan2(self, x: Self) -> Self {
-        elementary::atan2(self, x)
-    }
-    #[inline(always)]
     fn abs(self) -> Self {
         // SAFETY: as above.
         Self(unsafe { _mm_andnot_pd(_mm_set1_pd(-0.0), self.0) })
-    }
-    #[inline(always)]
-    fn at_roots(root: Self, _equation: &impl Equation<Self>) -> Self {
-        root
     }
 }
 
