@@ -215,7 +215,7 @@ impl<'a, L: Lanes> Element<'a, L> {
         let through = section.through + section.flap_cos * mean;
         let speed = section.in_plane.length(through);
         let factor = self.tip_loss_factor(through / speed);
-        let is_still = speed.values().negligible(0.0);
+        let is_still = speed.values().is_negligible(0.0);
         let is_whole = is_still | !factor.values().is_below(1.0);
         if is_whole.all() {
             return mean;
@@ -233,7 +233,7 @@ impl<'a, L: Lanes> Element<'a, L> {
         let share = C(0.5) * (C(1.0) + product / same);
         let at_blade = mean + share * added * (limit / size);
         // Without lift and with nothing induced, or so little that its square vanishes.
-        let is_nothing = same.values().negligible(0.0) | size.values().negligible(0.0);
+        let is_nothing = same.values().is_negligible(0.0) | size.values().is_negligible(0.0);
         L::select(is_whole | is_nothing, mean, at_blade)
     }
 
@@ -258,7 +258,7 @@ impl<'a, L: Lanes> Element<'a, L> {
             lift_coefficient: lift,
             drag_coefficient: drag,
         };
-        let is_still = speed.values().negligible(0.0);
+        let is_still = speed.values().is_negligible(0.0);
         if !is_still.any() {
             return load;
         }

@@ -58,7 +58,7 @@ pub fn bracketed<V: Plain>(
     last: End<V>,
     tolerance: V,
 ) -> Result<V, RootError> {
-    let is_finite = |x: V| x.negligible(f64::MAX);
+    let is_finite = |x: V| x.is_negligible(f64::MAX);
     let same_sign = |a: V, b: V| {
         let (a, b) = (a.is_above(0.0), b.is_above(0.0));
         (a & b) | (!a & !b)
@@ -71,8 +71,8 @@ pub fn bracketed<V: Plain>(
     if !ends_are_finite.all() {
         return Err(RootError::NotFinite);
     }
-    let is_first = first.residual.negligible(0.0) | (first.at - last.at).negligible(0.0);
-    let mut is_found = is_first | last.residual.negligible(0.0);
+    let is_first = first.residual.is_negligible(0.0) | (first.at - last.at).is_negligible(0.0);
+    let mut is_found = is_first | last.residual.is_negligible(0.0);
     let mut found = V::select(is_first, first.at, last.at);
     if is_found.all() {
         return Ok(found);
@@ -109,7 +109,7 @@ pub fn bracketed<V: Plain>(
         let best = End::select(is_new, new, other);
         let span = (other.at - new.at).abs();
         let is_close = !span.above(tolerance * 2.0);
-        let ends = (best.residual.negligible(0.0) | is_close) & !is_found;
+        let ends = (best.residual.is_negligible(0.0) | is_close) & !is_found;
         found = V::select(ends, best.at, found);
         is_found = is_found | ends;
         if is_found.all() {

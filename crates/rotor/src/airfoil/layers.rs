@@ -254,7 +254,7 @@ impl<L: Lanes> Place<L> {
     /// Whether any number lies between two layers.
     #[inline(always)]
     pub fn is_between(&self) -> bool {
-        !self.weight.negligible(0.0).all()
+        !self.weight.is_negligible(0.0).all()
     }
 }
 

@@ -48,7 +48,7 @@ impl Lookup {
     #[inline(always)]
     pub fn value<L: Lanes>(&self, layer: &[usize; LANES], alpha: L) -> L {
         let x = alpha.values();
-        let is_number = x.negligible(f64::MAX);
+        let is_number = x.is_negligible(f64::MAX);
         let part = ((x + PI) * (PARTS as f64 / (2.0 * PI))).to_index();
         let mut index = [0; LANES];
         for lane in 0..L::COUNT {

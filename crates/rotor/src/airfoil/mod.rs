@@ -424,7 +424,7 @@ impl Airfoil {
         let (low, high) = (at(-edge), at(edge));
         let slope = (high - low) / (2.0 * edge);
         let zero_lift = C(-0.5) * (high + low) / slope;
-        let is_flat = slope.values().negligible(0.0);
+        let is_flat = slope.values().is_negligible(0.0);
         (
             per_lane(slope),
             per_lane(Lanes::select(is_flat, zero, zero_lift)),

@@ -109,7 +109,7 @@ const FAR_END: f64 = 1e-12;
 /// about its square, or a few percent of it if a corner of the table lies within the step.
 const LAST_STEP: f64 = 1e-8;
 
-/// Bound on Newton's steps; three are usual.
+/// Bound on Newton's steps; a few are usual.
 const MAX_STEPS: u32 = 6;
 
 /// Lift slope from which Newton's method starts, 1/rad: that of thin sections.
@@ -372,7 +372,7 @@ fn in_axial_flow<L: Lanes>(
         && (!(climb * without).values().is_below(0.0)).all()
         && undisturbed.speed.values().is_above(0.0).all()
         && undisturbed.cos.values().is_above(0.0).all()
-        && (!without.values().negligible(0.0)).all()
+        && (!without.values().is_negligible(0.0)).all()
         && element.is_unstalled(without.values()).all();
     if !is_simple {
         return None;
@@ -396,7 +396,7 @@ fn in_axial_flow<L: Lanes>(
             let at = balance.residual(Dual::new(angle, L::Real::unit()));
             step = at.re / at.eps;
             angle = angle - step;
-            if step.negligible(LAST_STEP).all() {
+            if step.is_negligible(LAST_STEP).all() {
                 break;
             }
         }
@@ -406,7 +406,7 @@ fn in_axial_flow<L: Lanes>(
         let distance = angle - undisturbed.angle.re;
         let is_inside =
             (distance * without.values()).is_above(0.0) & distance.abs().is_below(FRAC_PI_2);
-        if !(step.negligible(LAST_STEP) & is_inside).all() {
+        if !(step.is_negligible(LAST_STEP) & is_inside).all() {
             return None;
         }
         angle
@@ -454,7 +454,7 @@ pub fn solve<L: Lanes>(
 ) -> Result<AnnulusInflow<L>, RootError> {
     let undisturbed = Undisturbed::of(element, flow);
     // In all lanes or in none.
-    if undisturbed.speed.values().negligible(0.0).any() {
+    if undisturbed.speed.values().is_negligible(0.0).any() {
         return Ok(AnnulusInflow::zero());
     }
     let mean = MeanBalance {
@@ -516,7 +516,7 @@ fn inflow_angle<L: Lanes>(
     // Nothing is induced, or the mean flow is brought to rest: the angle keeps its distance to
     // phi0.
     let distance = found - undisturbed.values();
-    let is_kept = start.negligible(0.0) | distance.abs().is_above(FRAC_PI_2 - FAR_END);
+    let is_kept = start.is_negligible(0.0) | distance.abs().is_above(FRAC_PI_2 - FAR_END);
     let kept = undisturbed.plus_real(distance);
     if is_kept.all() {
         return Ok(kept);
@@ -530,7 +530,7 @@ fn root<V: Plain>(start: End<V>, pitch: V, equation: impl Fn(V) -> V) -> Result<
         at,
         residual: equation(at),
     };
-    let is_nothing = start.residual.negligible(0.0); // no lift, nothing induced
+    let is_nothing = start.residual.is_negligible(0.0); // no lift, nothing induced
     let side = V::select(start.residual.is_below(0.0), V::splat(1.0), V::splat(-1.0));
     let is_descent = (side * start.at).is_below(0.0) & !is_nothing;
     let mut from = start;

@@ -166,7 +166,9 @@ fn solve<L: Lanes, M: Method>(
         let lift = slope * (pitch - through / rotation);
         let gain = element.compressibility(lift, flow.mach);
         let next = slope * gain;
-        let is_same = (next.values() - corrected.values()).negligible(0.0).all();
+        let is_same = (next.values() - corrected.values())
+            .is_negligible(0.0)
+            .all();
         if is_last || is_same {
             break;
         }
@@ -210,7 +212,7 @@ fn lift_line<L: Lanes>(element: &Element<L>, flow: Similarity<L>) -> (L, L) {
         slope += line.0.times(share);
         moment += (line.0 * line.1).times(share);
     }
-    let is_flat = slope.values().negligible(0.0);
+    let is_flat = slope.values().is_negligible(0.0);
     (slope, L::select(is_flat, L::nil(), moment / slope))
 }
 

@@ -59,7 +59,7 @@ pub fn solve<L: Lanes>(
 ) -> Result<AnnulusInflow<L>, RootError> {
     let edgewise = L::splat(flow.edgewise);
     let scale = (section.in_plane.length(section.through) + edgewise).values();
-    let is_still = scale.negligible(0.0);
+    let is_still = scale.is_negligible(0.0);
     if is_still.all() {
         return Ok(AnnulusInflow::zero());
     }
@@ -96,7 +96,7 @@ pub fn solve<L: Lanes>(
         let alpha = pitch - through.atan2(section.in_plane);
         let lift = element.lift_coefficient(alpha, speed);
         let thrust = strength * speed * lift * section.flap_cos / factor(v, through, speed);
-        L::select(speed.values().negligible(0.0), L::nil(), thrust)
+        L::select(speed.values().is_negligible(0.0), L::nil(), thrust)
     };
     let mass_flow = |v: L| {
         element
@@ -108,7 +108,7 @@ pub fn solve<L: Lanes>(
     let v = uniform::mean_velocity(mass_flow, section.through, scale, thrust)?;
     let (axial, through, speed) = flow_with(v);
     let share = L::select(
-        speed.values().negligible(0.0),
+        speed.values().is_negligible(0.0),
         L::unit(),
         factor(v, through, speed),
     );

@@ -26,7 +26,7 @@ const TOLERANCE: f64 = 1e-13;
 /// the problem: what is left is that times the relative error of the chord's slope.
 const LAST_STEP: f64 = 1e-9;
 
-/// Bound on the chords that stand for the thrust; three or four are usual.
+/// Bound on the chords that stand for the thrust; a few are usual.
 const MAX_CHORDS: u32 = 8;
 
 /// Bound on the secants of the momentum equation, and the relative change that is rounding.
@@ -117,7 +117,7 @@ fn by_secants<V: Plain>(function: impl Fn(V) -> V, start: V) -> Option<V> {
     for _ in 0..MAX_SECANTS {
         let here = function(at);
         let step = here * (at - last.0) / (here - last.1);
-        let is_exact = here.negligible(0.0);
+        let is_exact = here.is_negligible(0.0);
         is_found = is_found | is_exact;
         last = (
             V::select(is_found, last.0, at),
@@ -126,7 +126,7 @@ fn by_secants<V: Plain>(function: impl Fn(V) -> V, start: V) -> Option<V> {
         at = V::select(is_found, at, at - step);
         is_found = is_found | !step.abs().above(at.abs() * SECANT_ROUNDING);
         if is_found.all() {
-            return at.negligible(f64::MAX).all().then_some(at);
+            return at.is_negligible(f64::MAX).all().then_some(at);
         }
     }
     None
@@ -148,7 +148,7 @@ fn root<V: Plain>(equation: impl Fn(V) -> V, climb: V, scale: V) -> Result<V, Ro
         residual: equation(at),
     };
     let start = end(V::nil());
-    let is_nothing = start.residual.negligible(0.0); // no thrust, nothing induced
+    let is_nothing = start.residual.is_negligible(0.0); // no thrust, nothing induced
     if is_nothing.all() {
         return Ok(V::nil());
     }
@@ -170,7 +170,7 @@ fn root<V: Plain>(equation: impl Fn(V) -> V, climb: V, scale: V) -> Result<V, Ro
             return bracketed(equation, from, to, scale * TOLERANCE);
         }
         let next = end(from.at + step);
-        if !(is_closed | next.residual.negligible(f64::MAX)).all() {
+        if !(is_closed | next.residual.is_negligible(f64::MAX)).all() {
             return Err(RootError::NotFinite);
         }
         let closes = reached(next) & !is_closed;

@@ -159,7 +159,7 @@ impl Lanes for Avx2 {
         Avx2Mask(unsafe { _mm256_cmp_pd::<_CMP_GT_OQ>(self.0, limit.0) })
     }
     #[inline(always)]
-    fn negligible(self, limit: f64) -> Avx2Mask {
+    fn is_negligible(self, limit: f64) -> Avx2Mask {
         // SAFETY: as above.
         Avx2Mask(unsafe { _mm256_cmp_pd::<_CMP_LE_OQ>(self.abs().0, _mm256_set1_pd(limit)) })
     }

@@ -36,7 +36,7 @@ impl<V: Plain> Dual<V> {
     /// change is infinite.
     #[inline(always)]
     pub(crate) fn chain(self, value: V, slope: V) -> Self {
-        let is_still = self.eps.negligible(0.0) | slope.negligible(0.0);
+        let is_still = self.eps.is_negligible(0.0) | slope.is_negligible(0.0);
         Self::new(value, V::select(is_still, V::nil(), slope * self.eps))
     }
 }
@@ -196,17 +196,17 @@ impl<V: Plain> Lanes for Dual<V> {
     }
     #[inline(always)]
     fn below(self, limit: V) -> V::Mask {
-        let is_at = (self.re - limit).negligible(0.0);
+        let is_at = (self.re - limit).is_negligible(0.0);
         self.re.below(limit) | (is_at & self.eps.is_below(0.0))
     }
     #[inline(always)]
     fn above(self, limit: V) -> V::Mask {
-        let is_at = (self.re - limit).negligible(0.0);
+        let is_at = (self.re - limit).is_negligible(0.0);
         self.re.above(limit) | (is_at & self.eps.is_above(0.0))
     }
     #[inline(always)]
-    fn negligible(self, limit: f64) -> V::Mask {
-        self.re.negligible(limit) & self.eps.negligible(0.0)
+    fn is_negligible(self, limit: f64) -> V::Mask {
+        self.re.is_negligible(limit) & self.eps.is_negligible(0.0)
     }
     #[inline(always)]
     fn select(condition: V::Mask, yes: Self, no: Self) -> Self {
@@ -243,7 +243,7 @@ impl<V: Plain> Lanes for Dual<V> {
     fn length(self, other: Self) -> Self {
         let length = self.re.length(other.re);
         let change = (self.re * self.eps + other.re * other.eps) / length;
-        let begins = length.negligible(0.0);
+        let begins = length.is_negligible(0.0);
         Self::new(
             length,
             V::select(begins, self.eps.length(other.eps), change),
@@ -254,7 +254,7 @@ impl<V: Plain> Lanes for Dual<V> {
         let y = self;
         let turned = x.re * y.eps - y.re * x.eps;
         let square = y.re * y.re + x.re * x.re;
-        let change = V::select(turned.negligible(0.0), V::nil(), turned / square);
+        let change = V::select(turned.is_negligible(0.0), V::nil(), turned / square);
         Self::new(y.re.atan2(x.re), change)
     }
     #[inline(always)]
@@ -272,7 +272,7 @@ impl<V: Plain> Lanes for Dual<V> {
             match trial {
                 0 => {
                     limit = surplus.abs() * ROUNDING;
-                    open = !surplus.negligible(0.0);
+                    open = !surplus.is_negligible(0.0);
                     // A residual that does not change leaves the root where it is.
                     best.1 = V::select(open, best.1, zero);
                     (last, at) = ((zero, surplus), (zero, surplus));

@@ -103,7 +103,7 @@ pub fn sin_cos<V: Plain>(x: V) -> (V, V) {
     // quarter modulo 4: 0 sin, 1 cos, 2 -sin, 3 -cos
     let turns = (quarter * 0.25 + INTEGERS) - INTEGERS;
     let part = quarter - turns * 4.0; // -2, -1, 0, 1 or 2
-    let is_odd = (part.abs() - 1.0).negligible(0.0);
+    let is_odd = (part.abs() - 1.0).is_negligible(0.0);
     let is_half_turn = part.abs().is_above(1.5);
     let swapped = (V::select(is_odd, cos, sin), V::select(is_odd, sin, cos));
     let sine_negative = is_half_turn | part.is_below(-0.5);
@@ -183,7 +183,7 @@ pub fn atan2<V: Plain>(y: V, x: V) -> V {
     let is_middle = (large * 0.414_213_562_373_095).below(small);
     let numerator = V::select(is_middle, small - large, small);
     let denominator = V::select(is_middle, small + large, large);
-    let denominator = V::select(denominator.negligible(0.0), V::splat(1.0), denominator);
+    let denominator = V::select(denominator.is_negligible(0.0), V::splat(1.0), denominator);
     let t = numerator / denominator;
     let z = t * t;
     let p = z * polynomial!(V, z;

@@ -71,7 +71,7 @@ pub trait Lanes:
     /// Where it lies above the limits, or at them and is about to rise above.
     fn above(self, limit: Self::Real) -> Self::Mask;
     /// Where its magnitude is at most `limit`, and it does not change.
-    fn negligible(self, limit: f64) -> Self::Mask;
+    fn is_negligible(self, limit: f64) -> Self::Mask;
     /// `yes` where a condition holds, else `no`.
     fn select(condition: Self::Mask, yes: Self, no: Self) -> Self;
     /// Sine and cosine of an angle, rad.

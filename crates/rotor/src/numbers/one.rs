@@ -51,7 +51,7 @@ impl Lanes for f64 {
         self > limit
     }
     #[inline(always)]
-    fn negligible(self, limit: f64) -> bool {
+    fn is_negligible(self, limit: f64) -> bool {
         f64::abs(self) <= limit
     }
     #[inline(always)]

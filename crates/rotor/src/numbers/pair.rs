@@ -147,8 +147,8 @@ impl<P: Plain> Lanes for Pair<P> {
         PairMask(self.0.above(limit.0), self.1.above(limit.1))
     }
     #[inline(always)]
-    fn negligible(self, limit: f64) -> Self::Mask {
-        PairMask(self.0.negligible(limit), self.1.negligible(limit))
+    fn is_negligible(self, limit: f64) -> Self::Mask {
+        PairMask(self.0.is_negligible(limit), self.1.is_negligible(limit))
     }
     #[inline(always)]
     fn select(condition: Self::Mask, yes: Self, no: Self) -> Self {

@@ -34,10 +34,6 @@ pub trait Scalar:
     type In<V: Plain>: Lanes<One = Self, Real = V, Mask = V::Mask>;
     /// The value without the derivative.
     fn value(self) -> f64;
-    /// Whether its magnitude is at most `limit`, and it does not change.
-    fn is_negligible(self, limit: f64) -> bool {
-        self.negligible(limit)
-    }
     /// `self` (>= 0) to a constant power.
     fn power(self, exponent: f64) -> Self;
     /// Distance of the point (self, other) from the origin.

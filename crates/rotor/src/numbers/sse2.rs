@@ -159,7 +159,7 @@ impl Lanes for Sse2 {
         Sse2Mask(unsafe { _mm_cmpgt_pd(self.0, limit.0) })
     }
     #[inline(always)]
-    fn negligible(self, limit: f64) -> Sse2Mask {
+    fn is_negligible(self, limit: f64) -> Sse2Mask {
         // SAFETY: as above.
         Sse2Mask(unsafe { _mm_cmple_pd(self.abs().0, _mm_set1_pd(limit)) })
     }
