@@ -7,9 +7,9 @@ use thiserror::Error;
 #[derive(Debug, Error, Clone, Copy, PartialEq)]
 pub enum SolveError {
     /// The momentum equation of an annulus.
-    #[error("the inflow at r/R = {radius_ratio:.3} has no solution: {cause}")]
+    #[error("the inflow near r/R = {radius_ratio:.3} has no solution: {cause}")]
     Annulus {
-        /// r/R of the element's middle.
+        /// r/R of the middle of the innermost of the elements that are solved together.
         radius_ratio: f64,
         /// What the root finder found.
         cause: RootError,

@@ -163,4 +163,33 @@ mod tests {
         assert!((up.induced.axial - down.induced.axial).abs() < 1e-7);
         assert!((up.mean_axial - down.mean_axial).abs() < 1e-7);
     }
+
+    /// The sections are computed a few times for each solution, and each time is counted once.
+    #[test]
+    fn work_is_counted_where_sections_are_computed() {
+        let airfoil = airfoil();
+        let element = element(&airfoil, 0.1, 0.15);
+        let flow = DiscFlow {
+            rotation: 100.0,
+            speed: 100.0,
+            ..DiscFlow::default()
+        };
+        let section = SectionFlow {
+            pitch: 0.0,
+            in_plane: 80.0,
+            through: 0.0,
+            flap_sin: 0.0,
+            flap_cos: 1.0,
+            outboard: 0.8,
+            out: 0.8,
+            up: 0.0,
+        };
+        let momentum = Momentum {
+            descent: Descent::Measured.unstretched(),
+            ground: Ground::default(),
+        };
+        solve(&element, &section, &flow, &momentum).unwrap();
+        let done = element.work.done();
+        assert!((2..=8).contains(&done), "{done}");
+    }
 }
