@@ -4,7 +4,7 @@
 mod flights;
 
 use flights::{AZIMUTH_STEP, Begin, Flight, blades::Blades};
-use gungraun::{LibraryBenchmarkConfig, library_benchmark, library_benchmark_group, main};
+use gungraun::{library_benchmark, library_benchmark_group, main};
 
 #[library_benchmark(setup = Flight::under_way)]
 #[bench::annulus(Begin::hover(""))]
@@ -80,9 +80,4 @@ library_benchmark_group!(
         start
     ]
 );
-main!(
-    // Valgrind counts each byte of `rep movsb`, with which some processors copy, as an instruction.
-    config = LibraryBenchmarkConfig::default()
-        .env("GLIBC_TUNABLES", "glibc.cpu.x86_rep_movsb_threshold=16777216");
-    library_benchmark_groups = rows
-);
+main!(library_benchmark_groups = rows);
