@@ -3,7 +3,7 @@
 use super::{
     airfoil::{Airfoil, SectionModel, Similarity, wrapped},
     disc::SectionFlow,
-    numbers::{C, LANES, Lanes, Mask, PerLane, Plain, Portable, Scalar, in_lanes, per_lane},
+    numbers::{C, LANES, Lanes, Mask, PerLane, Plain, Portable, Scalar},
     tip_loss::{Span, TipLoss},
     work::Work,
 };
@@ -151,8 +151,8 @@ impl<'a, L: Lanes> Element<'a, L> {
             Some(airfoil) => airfoil.lift_coefficient(self.model, pitch, alpha, flow),
             None => {
                 let section = &self.section;
-                let (alpha, flow) = (&per_lane(alpha), &flow.per_lane());
-                in_lanes(&section.mixed_lift(self.model, &pitch.store(), alpha, flow))
+                let (alpha, flow) = (&alpha.per_lane(), &flow.per_lane());
+                L::in_lanes(&section.mixed_lift::<L::One>(self.model, &pitch.store(), alpha, flow))
             }
         };
         lift * self.lifting_share
@@ -178,8 +178,8 @@ impl<'a, L: Lanes> Element<'a, L> {
         match self.section.only() {
             Some(airfoil) => airfoil.drag_coefficient(self.model, alpha, flow),
             None => {
-                let (alpha, flow) = (&per_lane(alpha), &flow.per_lane());
-                in_lanes(&self.section.mixed_drag(self.model, alpha, flow))
+                let (alpha, flow) = (&alpha.per_lane(), &flow.per_lane());
+                L::in_lanes(&self.section.mixed_drag::<L::One>(self.model, alpha, flow))
             }
         }
     }
@@ -324,15 +324,15 @@ impl<'a> Section<'a> {
         alpha: &PerLane<S>,
         flow: &Similarity<PerLane<S>>,
     ) -> PerLane<S> {
-        let alpha: S::In<Portable> = in_lanes(alpha);
-        let (pitch, flow) = (Plain::load(pitch), flow.in_lanes());
+        let alpha = S::In::<Portable>::in_lanes(alpha);
+        let (pitch, flow) = (Plain::load(pitch), Similarity::in_lanes(flow));
         let mut lift = S::In::<Portable>::nil();
         for (index, shares) in self.shares {
             let airfoil = &self.airfoils[*index];
             let own = airfoil.lift_coefficient(model, pitch, alpha, flow);
             lift += own.times(Plain::load(shares));
         }
-        per_lane(lift)
+        lift.per_lane()
     }
 
     /// The drag coefficient of mixed sections.
@@ -343,14 +343,14 @@ impl<'a> Section<'a> {
         alpha: &PerLane<S>,
         flow: &Similarity<PerLane<S>>,
     ) -> PerLane<S> {
-        let alpha: S::In<Portable> = in_lanes(alpha);
-        let flow = flow.in_lanes();
+        let alpha = S::In::<Portable>::in_lanes(alpha);
+        let flow = Similarity::in_lanes(flow);
         let mut drag = S::In::<Portable>::nil();
         for (index, shares) in self.shares {
             let own = self.airfoils[*index].drag_coefficient(model, alpha, flow);
             drag += own.times(Plain::load(shares));
         }
-        per_lane(drag)
+        drag.per_lane()
     }
 
     /// The stall angles of the mixed section in a lane, negative and positive, rad.

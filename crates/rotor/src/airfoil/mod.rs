@@ -27,7 +27,7 @@ use summary::Summary;
 
 use super::{
     compressibility::Compressibility,
-    numbers::{C, LANES, Lanes, Mask, PerLane, Plain, Portable, Scalar, in_lanes, per_lane},
+    numbers::{C, LANES, Lanes, Mask, PerLane, Plain, Portable, Scalar},
     text_file::{self, TextFile},
 };
 use core::f64::consts::PI;
@@ -108,24 +108,22 @@ pub struct Similarity<S> {
     pub mach: S,
 }
 
-impl<S: Scalar> Similarity<PerLane<S>> {
-    /// Those of a block in lanes.
-    #[inline(always)]
-    pub(crate) fn in_lanes<L: Lanes<One = S>>(&self) -> Similarity<L> {
-        Similarity {
-            reynolds: in_lanes(&self.reynolds),
-            mach: in_lanes(&self.mach),
-        }
-    }
-}
-
 impl<L: Lanes> Similarity<L> {
     /// Those of the lanes.
     #[inline(always)]
     pub(crate) fn per_lane(&self) -> Similarity<PerLane<L::One>> {
         Similarity {
-            reynolds: per_lane(self.reynolds),
-            mach: per_lane(self.mach),
+            reynolds: self.reynolds.per_lane(),
+            mach: self.mach.per_lane(),
+        }
+    }
+
+    /// Those of a block in lanes.
+    #[inline(always)]
+    pub(crate) fn in_lanes(numbers: &Similarity<PerLane<L::One>>) -> Self {
+        Self {
+            reynolds: L::in_lanes(&numbers.reynolds),
+            mach: L::in_lanes(&numbers.mach),
         }
     }
 
@@ -255,9 +253,12 @@ impl Airfoil {
             {
                 lift.single(alpha)
             }
-            _ => {
-                in_lanes(&self.any_lift(model, &pitch.store(), &per_lane(alpha), &flow.per_lane()))
-            }
+            _ => L::in_lanes(&self.any_lift::<L::One>(
+                model,
+                &pitch.store(),
+                &alpha.per_lane(),
+                &flow.per_lane(),
+            )),
         };
         self.rule(model).correct(lift, flow.mach)
     }
@@ -271,15 +272,16 @@ impl Airfoil {
         alpha: &PerLane<S>,
         flow: &Similarity<PerLane<S>>,
     ) -> PerLane<S> {
-        let flow = flow.in_lanes::<S::In<Portable>>();
-        let alpha: S::In<Portable> = in_lanes(alpha);
-        per_lane(match model.lift {
+        let flow = Similarity::<S::In<Portable>>::in_lanes(flow);
+        let alpha = S::In::<Portable>::in_lanes(alpha);
+        let lift = match model.lift {
             Lift::TwoPi => C(2.0 * PI) * alpha.sin(),
             Lift::Table | Lift::SlopesByReynolds => match &self.data {
                 Data::Tables { lift, .. } => lift.value(alpha, flow),
                 Data::Laws(laws) => laws.lift(|lane| model.line(pitch[lane]), alpha, flow),
             },
-        })
+        };
+        lift.per_lane()
     }
 
     /// Factor by which the compressibility rule raises the incompressible lift coefficient `lift`
@@ -365,7 +367,7 @@ impl Airfoil {
         match &self.data {
             Data::Tables { drag, .. } if drag.is_single() => drag.single(alpha),
             Data::Tables { .. } | Data::Laws(_) => {
-                in_lanes(&self.any_drag(&per_lane(alpha), &flow.per_lane()))
+                L::in_lanes(&self.any_drag::<L::One>(&alpha.per_lane(), &flow.per_lane()))
             }
         }
     }
@@ -373,12 +375,13 @@ impl Airfoil {
     /// The drag coefficient of any data, without the correction.
     #[inline(never)]
     fn any_drag<S: Scalar>(&self, alpha: &PerLane<S>, flow: &Similarity<PerLane<S>>) -> PerLane<S> {
-        let flow = flow.in_lanes::<S::In<Portable>>();
-        let alpha: S::In<Portable> = in_lanes(alpha);
-        per_lane(match &self.data {
+        let flow = Similarity::<S::In<Portable>>::in_lanes(flow);
+        let alpha = S::In::<Portable>::in_lanes(alpha);
+        let drag = match &self.data {
             Data::Tables { drag, .. } => drag.value(alpha, flow),
             Data::Laws(laws) => laws.drag(alpha, flow),
-        })
+        };
+        drag.per_lane()
     }
 
     /// Whether the section has lift at any angle.
@@ -398,10 +401,16 @@ impl Airfoil {
         pitch: L::Real,
         flow: Similarity<L>,
     ) -> (L, L) {
-        let (slope, zero_lift) = self.any_lift_line(model, &pitch.store(), &flow.per_lane());
-        (in_lanes(&slope), in_lanes(&zero_lift))
+        if let (Some(line), Lift::Table | Lift::SlopesByReynolds) = (self.summary.line, model.lift)
+        {
+            return (L::constant(line.0), L::constant(line.1));
+        }
+        let (slope, zero_lift) =
+            self.any_lift_line::<L::One>(model, &pitch.store(), &flow.per_lane());
+        (L::in_lanes(&slope), L::in_lanes(&zero_lift))
     }
 
+    /// The lift of any data as one line.
     #[inline(never)]
     fn any_lift_line<S: Scalar>(
         &self,
@@ -409,26 +418,14 @@ impl Airfoil {
         pitch: &[f64; LANES],
         flow: &Similarity<PerLane<S>>,
     ) -> (PerLane<S>, PerLane<S>) {
-        let flow = flow.in_lanes::<S::In<Portable>>();
+        let flow = Similarity::<S::In<Portable>>::in_lanes(flow);
         let zero = S::In::<Portable>::nil();
-        let lift = match (&self.data, model.lift) {
-            (_, Lift::TwoPi) => return ([S::constant(2.0 * PI); LANES], per_lane(zero)),
-            (Data::Laws(laws), _) => {
-                let slope = laws.slope(|lane| model.line(pitch[lane]), flow);
-                return (per_lane(slope), per_lane(zero));
-            }
-            (Data::Tables { lift, .. }, _) => lift,
+        let (slope, zero_lift) = match (&self.data, model.lift) {
+            (_, Lift::TwoPi) => (Lanes::constant(2.0 * PI), zero),
+            (Data::Laws(laws), _) => (laws.slope(|lane| model.line(pitch[lane]), flow), zero),
+            (Data::Tables { lift, .. }, _) => lift.line(flow),
         };
-        let edge = 3.0_f64.to_radians();
-        let at = |alpha: f64| lift.value(S::In::<Portable>::constant(alpha), flow);
-        let (low, high) = (at(-edge), at(edge));
-        let slope = (high - low) / (2.0 * edge);
-        let zero_lift = C(-0.5) * (high + low) / slope;
-        let is_flat = slope.values().is_negligible(0.0);
-        (
-            per_lane(slope),
-            per_lane(Lanes::select(is_flat, zero, zero_lift)),
-        )
+        (slope.per_lane(), zero_lift.per_lane())
     }
 
     /// Where the section is clear of stall at an angle of attack (rad, between -pi and pi),

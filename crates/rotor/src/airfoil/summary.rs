@@ -1,10 +1,16 @@
 //! What follows from a section's data alone, found once when the file is read.
 
-use super::{Axis, Data, range};
+use super::{Axis, Data, Similarity, range};
 use core::f64::consts::PI;
 
 /// Margin for rounding between layers, as a fraction.
 const MARGIN: f64 = 1e-9;
+
+/// For data that do not depend on the flow.
+const ANY_FLOW: Similarity<f64> = Similarity {
+    reynolds: 1.0,
+    mach: 0.0,
+};
 
 /// Facts about a section that hold at every Reynolds and Mach number. They spare look-ups in flows
 /// far from stall and never change an answer.
@@ -16,6 +22,9 @@ pub struct Summary {
     pub lifts: bool,
     /// Between these angles of attack, rad, no layer is stalled.
     pub unstalled: (f64, f64),
+    /// The lift as one line, where it does not depend on the flow: its slope, 1/rad, and its angle
+    /// of zero lift, rad.
+    pub line: Option<(f64, f64)>,
     /// Below this drag coefficient the drag is less than that at either stall angle.
     pub drag_below_stall: f64,
 }
@@ -37,6 +46,7 @@ impl Summary {
                     reynolds,
                     lifts: lift.is_anywhere(),
                     unstalled: (negative.1 * (1.0 - MARGIN), positive.0 * (1.0 - MARGIN)),
+                    line: lift.is_single().then(|| lift.line(ANY_FLOW)),
                     drag_below_stall: at_stall.fold(f64::INFINITY, f64::min) * (1.0 - MARGIN),
                 }
             }
@@ -45,6 +55,7 @@ impl Summary {
                 reynolds,
                 lifts: true,
                 unstalled: (0.0, 0.0),
+                line: None,
                 drag_below_stall: 0.0,
             },
         }

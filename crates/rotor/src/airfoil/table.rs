@@ -7,7 +7,7 @@ use super::{
     lookup::Lookup,
 };
 use crate::{
-    numbers::{LANES, Lanes, Mask, Scalar},
+    numbers::{C, LANES, Lanes, Mask, Scalar},
     text_file::{collect, push},
 };
 use core::f64::consts::PI;
@@ -103,6 +103,18 @@ impl Table {
             return lower;
         }
         lower + place.weight * (self.lookup.value(&place.next, alpha) - lower)
+    }
+
+    /// The line through the lift at -3 and +3 deg: its slope, 1/rad, and its angle of zero lift,
+    /// rad, which is 0 for a line without slope.
+    pub fn line<L: Lanes>(&self, flow: Similarity<L>) -> (L, L) {
+        let edge = 3.0_f64.to_radians();
+        let at = |alpha: f64| self.value(L::constant(alpha), flow);
+        let (low, high) = (at(-edge), at(edge));
+        let slope = (high - low) / (2.0 * edge);
+        let zero_lift = C(-0.5) * (high + low) / slope;
+        let is_flat = slope.values().is_negligible(0.0);
+        (slope, L::select(is_flat, L::nil(), zero_lift))
     }
 
     /// Angles of attack (negative, positive) at which the lift reaches its first peak; -pi and pi

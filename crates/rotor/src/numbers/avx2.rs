@@ -133,7 +133,7 @@ impl Lanes for Avx2 {
     type Mask = Avx2Mask;
     const COUNT: usize = LANES;
 
-    alike_in_plain_lanes!();
+    alike_in_plain_lanes!(elementary);
 
     #[inline(always)]
     fn splat(number: f64) -> Self {

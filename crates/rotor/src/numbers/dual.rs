@@ -1,6 +1,6 @@
 //! Dual numbers: values with the derivative along one direction (Clifford 1873), in any lanes.
 
-use super::{Equation, Lanes, Mask, Plain};
+use super::{Equation, LANES, Lanes, Mask, Plain};
 use core::{
     iter::Sum,
     ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign},
@@ -166,8 +166,19 @@ impl<V: Plain> Lanes for Dual<V> {
         Self::new(V::splat(number.re), V::splat(number.eps))
     }
     #[inline(always)]
+    fn per_lane(self) -> Dual<[f64; LANES]> {
+        Dual {
+            re: self.re.store(),
+            eps: self.eps.store(),
+        }
+    }
+    #[inline(always)]
+    fn in_lanes(numbers: &Dual<[f64; LANES]>) -> Self {
+        Self::new(V::load(&numbers.re), V::load(&numbers.eps))
+    }
+    #[inline(always)]
     fn from_lanes(mut number: impl FnMut(usize) -> Dual) -> Self {
-        let (mut re, mut eps) = ([0.0; super::LANES], [0.0; super::LANES]);
+        let (mut re, mut eps) = ([0.0; LANES], [0.0; LANES]);
         for lane in 0..V::COUNT {
             let number = number(lane);
             (re[lane], eps[lane]) = (number.re, number.eps);

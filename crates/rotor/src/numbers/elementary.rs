@@ -201,6 +201,21 @@ pub fn atan2<V: Plain>(y: V, x: V) -> V {
     angle.with_sign_of(y)
 }
 
+/// The functions, each compiled once for each kind of lanes: copies in each place are large.
+pub mod compiled {
+    use super::Plain;
+
+    macro_rules! functions {
+        ($($name:ident($($argument:ident),+) -> $result:ty),*) => {$(
+            #[inline(never)]
+            pub fn $name<V: Plain>($($argument: V),+) -> $result {
+                super::$name($($argument),+)
+            }
+        )*};
+    }
+    functions!(sin_cos(x) -> (V, V), acos(y) -> V, exp(x) -> V, ln(x) -> V, atan2(y, x) -> V);
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

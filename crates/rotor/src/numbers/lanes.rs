@@ -54,6 +54,10 @@ pub trait Lanes:
 
     /// The same number in all lanes.
     fn splat(number: Self::One) -> Self;
+    /// The numbers, for code outside of these lanes.
+    fn per_lane(self) -> PerLane<Self::One>;
+    /// The numbers in lanes.
+    fn in_lanes(numbers: &PerLane<Self::One>) -> Self;
     /// The numbers that a function gives for each lane.
     fn from_lanes(number: impl FnMut(usize) -> Self::One) -> Self;
     /// The number in a lane.
@@ -182,9 +186,10 @@ pub trait Plain: Lanes<One = f64, Real = Self> + PartialEq + 'static {
     fn rows(table: &[[f64; 4]], index: &[usize; LANES]) -> [Self; 4];
 }
 
-/// What all kinds of plain lanes have alike: functions of `Lanes` in terms of the others.
+/// What all kinds of plain lanes have alike: functions of `Lanes` in terms of the others, and of
+/// the elementary functions in a module `$compiled`.
 macro_rules! alike_in_plain_lanes {
-    () => {
+    ($compiled:ident) => {
         #[inline(always)]
         fn real(values: Self) -> Self {
             values
@@ -192,6 +197,14 @@ macro_rules! alike_in_plain_lanes {
         #[inline(always)]
         fn values(self) -> Self {
             self
+        }
+        #[inline(always)]
+        fn per_lane(self) -> [f64; $crate::numbers::LANES] {
+            self.store()
+        }
+        #[inline(always)]
+        fn in_lanes(numbers: &[f64; $crate::numbers::LANES]) -> Self {
+            Self::load(numbers)
         }
         #[inline(always)]
         fn times(self, factor: Self) -> Self {
@@ -203,19 +216,19 @@ macro_rules! alike_in_plain_lanes {
         }
         #[inline(always)]
         fn sin_cos(self) -> (Self, Self) {
-            $crate::numbers::elementary::sin_cos(self)
+            $compiled::sin_cos(self)
         }
         #[inline(always)]
         fn acos(self) -> Self {
-            $crate::numbers::elementary::acos(self)
+            $compiled::acos(self)
         }
         #[inline(always)]
         fn exp(self) -> Self {
-            $crate::numbers::elementary::exp(self)
+            $compiled::exp(self)
         }
         #[inline(always)]
         fn ln(self) -> Self {
-            $crate::numbers::elementary::ln(self)
+            $compiled::ln(self)
         }
         #[inline(always)]
         fn length(self, other: Self) -> Self {
@@ -223,7 +236,7 @@ macro_rules! alike_in_plain_lanes {
         }
         #[inline(always)]
         fn atan2(self, x: Self) -> Self {
-            $crate::numbers::elementary::atan2(self, x)
+            $compiled::atan2(self, x)
         }
         #[inline(always)]
         fn at_roots(root: Self, _equation: &impl $crate::numbers::Equation<Self>) -> Self {
@@ -240,26 +253,10 @@ pub trait Equation<L> {
 }
 
 /// Numbers, one for each lane: how they are handed to code outside of the lanes.
-pub type PerLane<S> = [S; LANES];
-
-/// The numbers in the lanes.
-#[inline(always)]
-pub fn per_lane<L: Lanes>(numbers: L) -> PerLane<L::One> {
-    let mut all = [numbers.lane(0); LANES];
-    for (lane, number) in all.iter_mut().enumerate().take(L::COUNT).skip(1) {
-        *number = numbers.lane(lane);
-    }
-    all
-}
-
-/// Numbers, one for each lane, in lanes.
-#[inline(always)]
-pub fn in_lanes<L: Lanes>(numbers: &PerLane<L::One>) -> L {
-    L::from_lanes(|lane| numbers[lane])
-}
+pub type PerLane<S> = <S as Scalar>::PerLane;
 
 /// The same numbers in other lanes.
 #[inline(always)]
 pub fn converted<L: Lanes, M: Lanes<One = L::One>>(numbers: L) -> M {
-    M::from_lanes(|lane| numbers.lane(lane))
+    M::in_lanes(&numbers.per_lane())
 }

@@ -38,6 +38,6 @@ use lanes::alike_in_plain_lanes;
 
 pub use constant::C;
 pub use dual::{Dual, Dual64};
-pub use lanes::{Equation, LANES, Lanes, Mask, PerLane, Plain, converted, in_lanes, per_lane};
+pub use lanes::{Equation, LANES, Lanes, Mask, PerLane, Plain, converted};
 pub use run::{Kernel, Portable, Width, run};
 pub use scalar::Scalar;

@@ -1,6 +1,9 @@
 //! One plain number.
 
-use super::{LANES, Lanes, Mask, Plain, alike_in_plain_lanes, elementary};
+use super::{
+    LANES, Lanes, Mask, Plain, alike_in_plain_lanes,
+    elementary::{self, compiled},
+};
 
 impl Mask for bool {
     const COUNT: usize = 1;
@@ -28,7 +31,7 @@ impl Lanes for f64 {
     type Mask = bool;
     const COUNT: usize = 1;
 
-    alike_in_plain_lanes!();
+    alike_in_plain_lanes!(compiled);
 
     #[inline(always)]
     fn splat(number: f64) -> Self {

@@ -1,6 +1,6 @@
 //! Two groups of lanes, computed one after the other.
 
-use super::{LANES, Lanes, Mask, Plain, alike_in_plain_lanes};
+use super::{LANES, Lanes, Mask, Plain, alike_in_plain_lanes, elementary::compiled};
 use core::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// Twice the lanes of `P`: the first ones, and those after them.
@@ -119,7 +119,7 @@ impl<P: Plain> Lanes for Pair<P> {
     type Mask = PairMask<P::Mask>;
     const COUNT: usize = 2 * P::COUNT;
 
-    alike_in_plain_lanes!();
+    alike_in_plain_lanes!(compiled);
 
     #[inline(always)]
     fn splat(number: f64) -> Self {

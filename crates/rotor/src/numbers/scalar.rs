@@ -10,8 +10,8 @@
 //! [`Lanes::is_above`] and not the value. The decision record
 //! `docs/decisions/0001-one-sided-derivatives.md` says why.
 
-use super::{Dual, Dual64, Equation, Lanes, Plain};
-use core::cell::RefCell;
+use super::{Dual, Dual64, Equation, LANES, Lanes, Plain};
+use core::{cell::RefCell, fmt::Debug};
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign};
 use num_traits::{One, Zero};
 use std::iter::Sum;
@@ -30,6 +30,8 @@ pub trait Scalar:
     + ClosedMulAssign
     + ClosedDivAssign
 {
+    /// Several, one for each lane.
+    type PerLane: Copy + Debug;
     /// The same kind of number in the lanes of `V`.
     type In<V: Plain>: Lanes<One = Self, Real = V, Mask = V::Mask>;
     /// The value without the derivative.
@@ -57,6 +59,7 @@ impl<S, F: FnMut(S) -> S> Equation<S> for Residual<F> {
 }
 
 impl Scalar for f64 {
+    type PerLane = [f64; LANES];
     type In<V: Plain> = V;
     fn value(self) -> f64 {
         self
@@ -74,6 +77,7 @@ impl Scalar for f64 {
 }
 
 impl Scalar for Dual64 {
+    type PerLane = Dual<[f64; LANES]>;
     type In<V: Plain> = Dual<V>;
     fn value(self) -> f64 {
         self.re

@@ -1,6 +1,9 @@
 //! Two plain numbers in a register of SSE2, which every x86-64 processor has.
 
-use super::{LANES, Lanes, Mask, Plain, alike_in_plain_lanes, elementary};
+use super::{
+    LANES, Lanes, Mask, Plain, alike_in_plain_lanes,
+    elementary::{self, compiled},
+};
 use core::{
     arch::x86_64::*,
     fmt,
@@ -133,7 +136,7 @@ impl Lanes for Sse2 {
     type Mask = Sse2Mask;
     const COUNT: usize = 2;
 
-    alike_in_plain_lanes!();
+    alike_in_plain_lanes!(compiled);
 
     #[inline(always)]
     fn splat(number: f64) -> Self {
