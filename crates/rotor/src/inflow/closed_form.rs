@@ -297,7 +297,9 @@ impl Method for ByNewton {
                 break;
             }
         }
-        let is_inside = !((through - begin) * (limit - through)).is_below(0.0);
+        // Where F is 1 but for rounding, so is the flow `begin`.
+        let is_inside = !((through - begin) * (limit - through)).is_below(0.0)
+            | !(through - begin).abs().above(accuracy);
         if (is_found & (is_inside | !has_lift)).all() {
             Ok(through)
         } else {
