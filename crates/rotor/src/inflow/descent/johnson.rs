@@ -14,8 +14,8 @@
 //! Braunschweig, which cites the pages.)
 
 use crate::{
-    numbers::{C, Scalar},
-    root::{End, RootError, bracketed},
+    numbers::{C, Dual64, Scalar},
+    root::{End, bracketed},
 };
 
 // Baseline, p. 24.
@@ -42,6 +42,12 @@ const E: f64 = -2.0;
 /// V_x at which the boundaries of instability meet.
 const V_XM: f64 = 0.95;
 
+/// Bound on the steps towards v_h; about five are usual.
+const MAX_STEPS: u32 = 200;
+
+/// The search for v_h ends at a step of this part of it.
+const TOLERANCE: f64 = 1e-13;
+
 /// Bound on Newton's steps; about six are usual. Beyond the bound a bracket takes over.
 const MAX_NEWTON_STEPS: u32 = 30;
 
@@ -66,7 +72,7 @@ impl<S: Scalar> Boundary<S> {
         let part = C(1.0) - share * share;
         let (middle, half) = (0.5 * (N + X), 0.5 * (N - X));
         let upper = C(middle) + C(half) * part.power(0.2);
-        let lower = C(middle) - C(half) * part.power(1.5);
+        let lower = C(middle) - C(half) * part * part.sqrt();
         Some(Self {
             upper,
             lower,
@@ -84,44 +90,52 @@ pub fn speed<S: Scalar>(edgewise: S, climb: S, induced: S) -> S {
     if induced.value() == 0.0 {
         return edgewise.hypot(climb);
     }
-    let surplus = |hover: S| hover * ratio(edgewise / hover, climb / hover) - induced;
-    match hover_velocity(
-        |hover| surplus(S::constant(hover)).value(),
-        libm::hypot(edgewise.value(), climb.value()),
-        induced.value(),
-    ) {
-        Ok(hover) => {
-            let hover = S::at_root(hover, surplus);
-            hover * hover / induced
-        }
+    let values = (edgewise.value(), climb.value(), induced.value());
+    let Some(hover) = hover_velocity(values) else {
         // Never seen. The solution of the inflow then fails with an error.
-        Err(_) => S::constant(f64::NAN),
-    }
+        return S::constant(f64::NAN);
+    };
+    let surplus = |hover: S| hover * ratio(edgewise / hover, climb / hover) - induced;
+    let hover = S::at_root(hover, surplus);
+    hover * hover / induced
 }
 
-/// The v_h at which `surplus` is 0; `flow` and `induced`, m/s.
-fn hover_velocity(surplus: impl Fn(f64) -> f64, flow: f64, induced: f64) -> Result<f64, RootError> {
-    let end = |at: f64| End {
-        at,
-        residual: surplus(at),
+/// The v_h, m/s, at which the model gives v from V_x, V_c and v, m/s. Newton's method, halving the
+/// bracket where it leaves that or hardly gets on (Press et al. 1992, "Numerical Recipes", ch. 9.4):
+/// the slope jumps at the knots.
+fn hover_velocity((edgewise, climb, induced): (f64, f64, f64)) -> Option<f64> {
+    let surplus = |hover: f64| {
+        let hover = Dual64::new(hover, 1.0);
+        hover * ratio(C(edgewise) / hover, C(climb) / hover) - induced
     };
-    // A lightly loaded rotor in fast flow induces much less than its v_h, v = v_h^2/V; a loaded one
-    // in slow flow induces about its v_h. The bracket grows from there.
-    let scale = flow + induced;
-    let (mut low, mut high) = (end(1e-3 * libm::sqrt(induced * scale)), end(induced));
-    for _ in 0..60 {
-        if low.residual <= 0.0 {
-            break;
+    let (mut low, mut high) = (0.0, f64::INFINITY);
+    // Where nearly all the flow is the rotor's own, or nearly none, this is v_h.
+    let mut hover = libm::sqrt(induced * (libm::hypot(edgewise, climb) + induced));
+    let mut last_step = f64::INFINITY;
+    for _ in 0..MAX_STEPS {
+        let at = surplus(hover);
+        let step = at.re / at.eps;
+        if step.abs() <= TOLERANCE * hover || high - low <= TOLERANCE * hover {
+            return Some(hover);
         }
-        low = end(0.5 * low.at);
-    }
-    for _ in 0..60 {
-        if high.residual >= 0.0 {
-            break;
+        if at.re < 0.0 {
+            low = hover;
+        } else {
+            high = hover;
         }
-        high = end(2.0 * high.at);
+        let next = hover - step;
+        let is_good = low < next && next < high && step.abs() <= 0.5 * last_step;
+        let next = if is_good {
+            next
+        } else if high == f64::INFINITY {
+            2.0 * hover
+        } else {
+            0.5 * (low + high)
+        };
+        last_step = (next - hover).abs();
+        hover = next;
     }
-    bracketed(surplus, low, high, 1e-13 * scale)
+    None
 }
 
 /// v at V_x and V_z, all in units of v_h.
@@ -138,7 +152,8 @@ fn ratio<S: Scalar>(edgewise: S, climb: S) -> S {
         return base;
     }
     let share = edgewise / V_XM;
-    let fade = (C(1.0) - share.power(6.0)).sqrt();
+    let square = share * share;
+    let fade = (C(1.0) - square * square * square).sqrt();
     let at = |v_z: S, through: f64, own: f64| Knot {
         at: v_z,
         value: fade * (through - (own + helicopter(0.0, own))),
@@ -220,6 +235,9 @@ fn windmill<S: Scalar>(edgewise: S, climb: S) -> S {
     let middle = -0.5 * climb.value();
     if middle * libm::hypot(edgewise.value(), middle) < 1.0 {
         return helicopter(edgewise, climb);
+    }
+    if edgewise.value() == 0.0 {
+        return C(-0.5) * climb - (C(0.25) * climb * climb - 1.0).sqrt();
     }
     momentum(edgewise, climb, 0.0, middle)
 }
