@@ -1,9 +1,6 @@
 //! One plain number.
 
-use super::{
-    LANES, Lanes, Mask, Plain, alike_in_plain_lanes,
-    elementary::{self, compiled},
-};
+use super::{LANES, Lanes, Mask, Plain, alike_in_plain_lanes, elementary};
 
 impl Mask for bool {
     const COUNT: usize = 1;
@@ -31,7 +28,7 @@ impl Lanes for f64 {
     type Mask = bool;
     const COUNT: usize = 1;
 
-    alike_in_plain_lanes!(compiled);
+    alike_in_plain_lanes!(elementary);
 
     #[inline(always)]
     fn splat(number: f64) -> Self {
