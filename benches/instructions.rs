@@ -10,6 +10,9 @@ use gungraun::{library_benchmark, library_benchmark_group, main};
 #[bench::annulus(Begin::hover(""))]
 #[bench::closed_form(Begin::hover("models.inflow = annulusClosedForm"))]
 #[bench::four_elements(Begin::hover("models.inflow = annulusClosedForm; numerics.elements = 4"))]
+#[bench::elements_10(Begin::hover("numerics.elements = 10"))]
+#[bench::elements_100(Begin::hover("numerics.elements = 100"))]
+#[bench::elements_1000(Begin::hover("numerics.elements = 1000"))]
 fn hover_step(mut flight: Flight) -> Flight {
     flight.exchange(1e-3);
     flight
@@ -38,6 +41,10 @@ fn descent_step(mut flight: Flight) -> Flight {
 #[bench::annulus(Begin::flapping("annulus"))]
 #[bench::finite_blades(Begin::flapping("finiteBlades"))]
 #[bench::prandtl_thrust(Begin::flapping("pittPetersDynamic; models.tipLoss = prandtlThrust"))]
+#[bench::blades_2(Begin::flapping("pittPetersDynamic; geometry.numberOfBlades = 2"))]
+#[bench::blades_8(Begin::flapping("pittPetersDynamic; geometry.numberOfBlades = 8"))]
+#[bench::elements_10(Begin::flapping("pittPetersDynamic; numerics.elements = 10"))]
+#[bench::elements_1000(Begin::flapping("pittPetersDynamic; numerics.elements = 1000"))]
 fn azimuth_step(mut flight: Flight) -> Flight {
     flight.exchange(AZIMUTH_STEP);
     flight
