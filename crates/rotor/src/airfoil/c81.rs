@@ -11,15 +11,23 @@
 //! Angles run from -180 to 180 deg. The values at the two ends may differ, as they do in many
 //! published tables. The moment table is not used; it may be incomplete or missing.
 //!
-//! Files that people have edited: a line that does not keep to the columns is read as free numbers
-//! (see `records`). The counts may follow the name anywhere in the first line; without a moment
-//! table four counts will do in place of six. Blank lines do not count.
+//! Files of other programs and files that people have edited:
+//!
+//! - a line that does not keep to the columns is read as free numbers (see `records`), and text may
+//!   stand before the Mach numbers of a table;
+//! - the counts may follow the name anywhere in the first line, or begin one column off; without a
+//!   moment table four counts will do in place of six;
+//! - blank lines and, before the first line, lines that begin with `#` do not count: MBDyn's free
+//!   format begins with `# FREE FORMAT`;
+//! - DUST and OpenCOPTER begin with three lines of numbers, the first of which is the number of
+//!   Reynolds numbers, a comment, and a line with Reynolds and Mach number (`read_c81_table` in
+//!   `mod_c81` of DUST).
 
 use super::{
     Airfoil, AirfoilError, Axis, Coefficient, CurveProblem, Data, Layers, Table, TableError,
     formats::{Format, has_extension},
     layers::MAX_LAYERS,
-    records::{Layout, Number, Problem, Records, words},
+    records::{self, Layout, Number, Problem, Records, words},
 };
 use crate::text_file::{excerpt, push};
 
@@ -39,12 +47,46 @@ const NEEDED_COUNTS: usize = 4;
 /// Maximum number of Mach numbers or of angles; no table has more.
 const MAX_COUNT: usize = MAX_LAYERS;
 
+/// Maximum number of Reynolds numbers of a file.
+const MAX_SETS: usize = 99;
+
+/// Lines between the tables of two Reynolds numbers of a DUST file, with the first line of the
+/// second.
+const MAX_LINES_BETWEEN: usize = 5;
+
+/// Lower numbers before the tables of a DUST file are no Reynolds number.
+const MIN_REYNOLDS: f64 = 1000.0;
+
 /// The first line.
-#[derive(Debug, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 struct Header {
     name: String,
     /// ML, NL, MD, ND.
     counts: [usize; NEEDED_COUNTS],
+    /// MM, NM; 0 if the line does not have them.
+    moment: [usize; 2],
+}
+
+/// The numbers of a table as they stand in the file.
+#[derive(Debug)]
+pub struct Numbers {
+    /// The Mach numbers, one or more.
+    pub machs: Vec<Number>,
+    /// An angle and a value for each Mach number.
+    pub rows: Vec<Vec<Number>>,
+}
+
+/// The tables of lift and drag at one Reynolds number.
+#[derive(Debug)]
+pub struct Set<T> {
+    /// The section's name.
+    pub name: String,
+    /// Its Reynolds number, if the file has one.
+    pub reynolds: Option<f64>,
+    /// The lift.
+    pub lift: T,
+    /// The drag.
+    pub drag: T,
 }
 
 /// Reads the text of a C81 file; `file` is its name for errors.
@@ -58,20 +100,159 @@ pub fn parse(text: &str, file: &str) -> Result<Airfoil, AirfoilError> {
 }
 
 fn read(text: &str) -> Result<Airfoil, Problem> {
+    let mut sets = sets(text, |coefficient, numbers| table(coefficient, &numbers))?;
+    match (sets.pop(), sets.len()) {
+        (Some(set), 0) => {
+            let (lift, drag) = (set.lift, set.drag);
+            Ok(Airfoil::new(set.name, Data::Tables { lift, drag }))
+        }
+        (_, others) => {
+            let problem = format!(
+                "the file has tables for {} Reynolds numbers, of which one can be read; `helicopter-rotor polar` takes one of them, or one Mach number, out of the file",
+                others + 1
+            );
+            Err((1, 1, problem))
+        }
+    }
+}
+
+/// The tables of a file, one set for each Reynolds number, at least one. `made_of` makes a table of
+/// its numbers.
+pub fn sets<T>(
+    text: &str,
+    made_of: impl Fn(Coefficient, Numbers) -> Result<T, Problem>,
+) -> Result<Vec<Set<T>>, Problem> {
     let mut records = Records::new(text);
-    let (line, first) = records.line("the header")?;
-    let header = header(first).ok_or_else(|| {
-        let field: String = first.chars().skip(COUNTS_COLUMN).take(2).collect();
-        let problem = format!(
-            "`{}` is not a count; columns 31-42 hold ML, NL, MD, ND, MM and NM in two digits each, or the line ends with these numbers between blanks",
-            excerpt(field.trim())
-        );
-        (line, COUNTS_COLUMN + 1, problem)
-    })?;
-    let [lift_machs, lift_angles, drag_machs, drag_angles] = header.counts;
-    let lift = table(&mut records, Coefficient::Lift, lift_machs, lift_angles)?;
-    let drag = table(&mut records, Coefficient::Drag, drag_machs, drag_angles)?;
-    Ok(Airfoil::new(header.name, Data::Tables { lift, drag }))
+    let Some(count) = preface(&mut records) else {
+        let header = first_line(&mut records)?;
+        return Ok(vec![set(&mut records, header, None, false, &made_of)?]);
+    };
+    let mut sets = Vec::new();
+    for i in 1..=count {
+        let (header, reynolds) = next_header(&mut records)?;
+        let has_next = i < count;
+        sets.push(set(&mut records, header, reynolds, has_next, &made_of)?);
+    }
+    Ok(sets)
+}
+
+/// Whether a text begins as a C81 file does.
+pub fn begins(text: &str) -> bool {
+    let mut records = Records::new(text);
+    if preface(&mut records).is_some() {
+        return true;
+    }
+    first_line(&mut records).is_ok_and(|(_, line)| headers(line).next().is_some())
+}
+
+/// The first line that is no comment.
+fn first_line<'a>(records: &mut Records<'a>) -> Result<(usize, &'a str), Problem> {
+    loop {
+        let line = records.line("the header")?;
+        if !line.1.trim_start().starts_with('#') {
+            return Ok(line);
+        }
+    }
+}
+
+/// The number of Reynolds numbers by the three lines with which DUST begins a file; none and no
+/// line read if the file begins otherwise.
+fn preface(records: &mut Records) -> Option<usize> {
+    let mut ahead = records.clone();
+    let (_, first) = ahead.line("the header").ok()?;
+    let is_whole = |text: &str| text.len() <= 2 && text.bytes().all(|b| b.is_ascii_digit());
+    let mut count = 0;
+    for (i, (_, word)) in words(first).enumerate() {
+        if i == 3 || !is_whole(word) {
+            return None;
+        }
+        if i == 0 {
+            count = word.parse().ok().filter(|n| (1..=MAX_SETS).contains(n))?;
+        }
+    }
+    for _ in 0..2 {
+        let (_, line) = ahead.line("the header").ok()?;
+        if words(line).count() > 2 || words(line).any(|(_, word)| records::number(word).is_none()) {
+            return None;
+        }
+    }
+    *records = ahead;
+    Some(count)
+}
+
+/// The next first line of a set of tables in a DUST file, and the Reynolds number before it.
+fn next_header<'a>(records: &mut Records<'a>) -> Result<((usize, &'a str), Option<f64>), Problem> {
+    let mut reynolds = None;
+    for _ in 0..MAX_LINES_BETWEEN {
+        let (line, text) = records.line("the line with the counts of the tables")?;
+        if headers(text).next().is_some() {
+            return Ok(((line, text), reynolds));
+        }
+        let number = words(text)
+            .next()
+            .and_then(|(_, word)| records::number(word));
+        reynolds = number.filter(|re| *re >= MIN_REYNOLDS).or(reynolds);
+    }
+    let (line, _) = records.line("the line with the counts of the tables")?;
+    let problem = "the file begins as DUST's do, but no line with the counts ML, NL, MD, ND, MM and NM, two digits each, is found before this one".into();
+    Err((line, 1, problem))
+}
+
+/// Reads a set of tables, of which the first line has been read: with the counts that fit.
+fn set<T>(
+    records: &mut Records,
+    (line, first): (usize, &str),
+    reynolds: Option<f64>,
+    has_next: bool,
+    made_of: &impl Fn(Coefficient, Numbers) -> Result<T, Problem>,
+) -> Result<Set<T>, Problem> {
+    let mut farthest: Option<Problem> = None;
+    for header in headers(first) {
+        let mut ahead = records.clone();
+        let [lift_machs, lift_angles, drag_machs, drag_angles] = header.counts;
+        let tables = numbers(&mut ahead, "lift", lift_machs, lift_angles)
+            .and_then(|numbers| made_of(Coefficient::Lift, numbers))
+            .and_then(|lift| {
+                let numbers = numbers(&mut ahead, "drag", drag_machs, drag_angles)?;
+                let drag = made_of(Coefficient::Drag, numbers)?;
+                let [machs, angles] = header.moment;
+                if has_next && machs > 0 && angles > 0 {
+                    self::numbers(&mut ahead, "moment", machs, angles)?;
+                }
+                Ok((lift, drag))
+            });
+        match tables {
+            Ok((lift, drag)) => {
+                *records = ahead;
+                return Ok(Set {
+                    name: header.name,
+                    reynolds,
+                    lift,
+                    drag,
+                });
+            }
+            Err(problem) => {
+                let is_farther = |known: &Problem| (problem.0, problem.1) > (known.0, known.1);
+                if farthest.as_ref().is_none_or(is_farther) {
+                    farthest = Some(problem);
+                }
+            }
+        }
+    }
+    Err(farthest.unwrap_or_else(|| no_counts(line, first)))
+}
+
+/// The error of a first line without counts.
+fn no_counts(line: usize, first: &str) -> Problem {
+    let field: String = first.chars().skip(COUNTS_COLUMN).take(2).collect();
+    let found = match field.trim() {
+        "" => "the first line ends without counts".to_owned(),
+        field => format!("`{}` is not a count", excerpt(field)),
+    };
+    let problem = format!(
+        "{found}; columns 31-42 hold ML, NL, MD, ND, MM and NM in two digits each, or the line ends with these numbers between blanks"
+    );
+    (line, COUNTS_COLUMN + 1, problem)
 }
 
 fn count(text: &str) -> Option<usize> {
@@ -80,26 +261,36 @@ fn count(text: &str) -> Option<usize> {
     value.filter(|n| (1..=MAX_COUNT).contains(n))
 }
 
-fn header(line: &str) -> Option<Header> {
-    header_in_columns(line).or_else(|| free_header(line))
+/// The ways to read a first line, the most usual first.
+fn headers(line: &str) -> impl Iterator<Item = Header> + '_ {
+    let usual = header_in_columns(line, COUNTS_COLUMN).into_iter();
+    let one_off = [COUNTS_COLUMN - 1, COUNTS_COLUMN + 1];
+    let one_off = one_off
+        .into_iter()
+        .flat_map(move |column| header_in_columns(line, column));
+    usual.chain(free_header(line)).chain(one_off)
 }
 
-/// Counts of two digits from column 31 on.
-fn header_in_columns(line: &str) -> Option<Header> {
+/// Counts of two digits behind `begin` characters.
+fn header_in_columns(line: &str, begin: usize) -> Option<Header> {
     if line.contains('\t') {
         return None;
     }
-    let end = COUNTS_COLUMN + 2 * NEEDED_COUNTS;
-    let text: Vec<char> = line.chars().take(end).collect();
+    let text: Vec<char> = line.chars().take(begin + 2 * COUNTS).collect();
+    let field = |i: usize| -> Option<String> {
+        let field = text.get(begin + 2 * i..)?.iter().take(2);
+        Some(field.collect::<String>().trim().to_owned())
+    };
     let mut counts = [0; NEEDED_COUNTS];
     for (i, slot) in counts.iter_mut().enumerate() {
-        let field = text.get(COUNTS_COLUMN + 2 * i..)?.iter().take(2);
-        *slot = count(field.collect::<String>().trim())?;
+        *slot = count(&field(i)?)?;
     }
-    let name: String = text.iter().take(COUNTS_COLUMN).collect();
+    let moment = [NEEDED_COUNTS, NEEDED_COUNTS + 1].map(|i| field(i).and_then(|f| count(&f)));
+    let name: String = text.iter().take(begin).collect();
     Some(Header {
         name: excerpt(name.trim()),
         counts,
+        moment: moment.map(|count| count.unwrap_or(0)),
     })
 }
 
@@ -140,43 +331,52 @@ fn free_header(line: &str) -> Option<Header> {
     for (slot, text) in counts.iter_mut().zip(&texts) {
         *slot = count(text)?;
     }
+    let moment = [NEEDED_COUNTS, NEEDED_COUNTS + 1].map(|i| texts.get(i).and_then(|t| count(t)));
     let end = line.char_indices().nth(begin - 1);
     let name = &line[..end.map_or(line.len(), |(index, _)| index)];
     let is_around = |c: char| c.is_whitespace() || c == ',' || c == ';';
     Some(Header {
         name: excerpt(name.trim_matches(is_around)),
         counts,
+        moment: moment.map(|count| count.unwrap_or(0)),
     })
 }
 
-fn table(
+/// Reads a table of so many Mach numbers and angles.
+fn numbers(
     records: &mut Records,
-    coefficient: Coefficient,
+    name: &str,
     machs: usize,
     angles: usize,
-) -> Result<Table, Problem> {
+) -> Result<Numbers, Problem> {
+    let machs = records.numbers(Layout {
+        has_angle: false,
+        values: machs,
+        what: &format!("a Mach number of the {name} table"),
+    })?;
+    let mut rows = Vec::new();
+    for _ in 0..angles {
+        let row = records.numbers(Layout {
+            has_angle: true,
+            values: machs.len(),
+            what: &format!("a value of the {name} table"),
+        })?;
+        let begin = row[0];
+        push(&mut rows, row, "the rows")
+            .map_err(|error| (begin.line, begin.column, error.to_string()))?;
+    }
+    Ok(Numbers { machs, rows })
+}
+
+/// The table of a coefficient with these numbers.
+fn table(coefficient: Coefficient, Numbers { machs, rows }: &Numbers) -> Result<Table, Problem> {
     let name = match coefficient {
         Coefficient::Lift => "lift",
         Coefficient::Drag => "drag",
     };
     let at = |number: &Number, problem: String| (number.line, number.column, problem);
-    let numbers = records.numbers(Layout {
-        has_angle: false,
-        values: machs,
-        what: &format!("a Mach number of the {name} table"),
-    })?;
-    let layers = Layers::try_new(Axis::Mach, numbers.iter().map(|n| n.value))
-        .map_err(|error| at(&numbers[error.layer], format!("{name} table: {error}")))?;
-    let mut rows = Vec::new();
-    for _ in 0..angles {
-        let row = records.numbers(Layout {
-            has_angle: true,
-            values: machs,
-            what: &format!("a value of the {name} table"),
-        })?;
-        let begin = row[0];
-        push(&mut rows, row, "the rows").map_err(|error| at(&begin, error.to_string()))?;
-    }
+    let layers = Layers::try_new(Axis::Mach, machs.iter().map(|n| n.value))
+        .map_err(|error| at(&machs[error.layer], format!("{name} table: {error}")))?;
     let points = |mach: usize| {
         rows.iter()
             .map(move |row| (row[0].value, row[mach + 1].value))
@@ -195,6 +395,7 @@ fn table(
             | CurveProblem::NegativeDrag(_)
             | CurveProblem::TooSteep { .. } => &row[layer + 1],
         };
+        let angles = rows.len();
         let problem = format!("{name} table of {angles} angles by the first line: {error}");
         at(number, problem)
     })
@@ -423,6 +624,138 @@ Test section                   2 4 1 3 1 2
         }
     }
 
+    /// The forms of DUST (`read_c81_table`), OpenCOPTER and MBDyn (`c81_data_write_free_format`), and
+    /// headers and Mach lines that people have moved.
+    #[test]
+    fn the_dialects_of_other_programs_are_the_same_file() {
+        let good = sampled(&parse(GOOD, "good.c81").unwrap());
+        let (first, tables) = GOOD.split_once('\n').unwrap();
+        let moments = "          0.00\n-180.00   0.00\n 180.00   0.00\n";
+        let free: Vec<String> = tables
+            .lines()
+            .map(|l| l.split_whitespace().collect::<Vec<_>>().join(" ") + " ")
+            .collect();
+        let free = free.join("\n");
+        for (what, text) in [
+            (
+                "DUST",
+                format!(
+                    "1 0 0\n0 1\n0.158 0.158\nCOMMENT#1\n1000000.0    0.200\n 020401030102\n{tables}{moments}"
+                ),
+            ),
+            (
+                "DUST with a name in one word and tabs",
+                format!(
+                    "1 0 0\n0 1\n0.158 0.158\nCOMMENT#1\n  1000000.00 0.2\nSection  020401030102\n{}",
+                    free.replace(' ', "\t")
+                ),
+            ),
+            (
+                "OpenCOPTER",
+                format!("1 0 0\n0\n0\nTAKEN FROM A TUNNEL\n\n{first}\n{tables}{moments}"),
+            ),
+            (
+                "MBDyn, free",
+                format!("# FREE FORMAT\nTest section; 2 4 1 3 1 2\n{free}\n0 \n-180 0 \n180 0 \n"),
+            ),
+            (
+                "names of the tables",
+                GOOD.replacen("          0.00   0.80", "CL        0.00   0.80", 1),
+            ),
+            (
+                "words before the Mach numbers",
+                GOOD.replacen("          0.00   0.80", "MACH NUMBER 0.00 0.80", 1),
+            ),
+            (
+                "a header one column early",
+                GOOD.replacen("Test section   ", "Test section  ", 1),
+            ),
+            (
+                "a header one column late",
+                GOOD.replacen("Test section   ", "Test section    ", 1),
+            ),
+            (
+                "a header of digits one column early",
+                format!("{:29}{}\n{tables}", "Test section 12x", "020401030102"),
+            ),
+            (
+                "a header of digits one column late",
+                format!("{:x<31}{}\n{tables}", "Test section ", "020401030102"),
+            ),
+        ] {
+            match parse(&text, "x.c81") {
+                Ok(airfoil) => assert_eq!(sampled(&airfoil), good, "{what}"),
+                Err(error) => panic!("{what}: {error}"),
+            }
+        }
+    }
+
+    #[test]
+    fn tables_for_several_reynolds_numbers_are_found_and_refused_with_what_to_do() {
+        let (_, tables) = GOOD.split_once('\n').unwrap();
+        let moments = "          0.00\n-180.00   0.00\n 180.00   0.00\n";
+        let set = |re: &str| format!("{re}    0.200\n 020401030102\n{tables}{moments}");
+        let begin = "2 0 0\n0 1\n0.158 0.158\nCOMMENT#1\n";
+        for text in [
+            format!("{begin}{}{}", set("1e5"), set("1.0D6")),
+            format!("{begin}{}COMMENT#2\n{}", set("1e5"), set("1000000")),
+        ] {
+            let sets = sets(&text, |_, numbers| Ok(numbers)).unwrap();
+            let reynolds: Vec<_> = sets.iter().map(|set| set.reynolds).collect();
+            assert_eq!(reynolds, [Some(1e5), Some(1e6)]);
+            assert_eq!(sets[1].drag.rows.len(), 3);
+            let error = parse(&text, "dust.c81").unwrap_err().to_string();
+            assert!(
+                error.contains("tables for 2 Reynolds numbers")
+                    && error.contains("`helicopter-rotor polar` takes one"),
+                "{error}"
+            );
+        }
+        let missing = format!("{begin}{}", set("1e5"));
+        let error = parse(&missing, "dust.c81").unwrap_err().to_string();
+        assert!(
+            error.contains("the file ends before the line with the counts"),
+            "{error}"
+        );
+        let other = "1 0 0\n0 1\n0 0\na\nb\nc\nd\ne\nf\n";
+        let error = parse(other, "dust.c81").unwrap_err().to_string();
+        assert!(
+            error.contains("line 9") && error.contains("begins as DUST's do"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn a_table_that_ends_before_the_full_circle_is_refused_with_what_to_do() {
+        let text = "Test 1 2 1 2\n0.3\n-20 -1\n20 1\n0.3\n-20 0.1\n20 0.1\n";
+        let error = parse(text, "short.c81").unwrap_err().to_string();
+        assert!(
+            error.contains("line 3, column 1: ")
+                && error.contains("the first angle must be -180 deg, not -20; `helicopter-rotor polar` extends a file to the full circle"),
+            "{error}"
+        );
+    }
+
+    #[test]
+    fn a_first_line_without_counts_is_told_from_one_with_wrong_ones() {
+        for (line, part) in [
+            (
+                "NACA 0012",
+                "the first line ends without counts; columns 31-42 hold",
+            ),
+            (
+                "NACA 0012                      x 4 1 3 1 2",
+                "`x` is not a count; columns",
+            ),
+        ] {
+            let error = parse(line, "x.c81").unwrap_err().to_string();
+            assert!(
+                error.contains("line 1, column 31: ") && error.contains(part),
+                "{error}"
+            );
+        }
+    }
+
     #[test]
     fn the_name_ends_where_the_counts_begin() {
         for (line, name) in [
@@ -437,7 +770,7 @@ Test section                   2 4 1 3 1 2
             ),
             ("0012, 020401030102", "0012"),
         ] {
-            let found = header(line).unwrap();
+            let found = headers(line).next().unwrap();
             assert_eq!((found.name.as_str(), found.counts), (name, [2, 4, 1, 3]));
         }
         for line in [
@@ -448,7 +781,7 @@ Test section                   2 4 1 3 1 2
             "name 0 4 1 3 1 2",
             "name 2 4 1 9999999999999999999999",
         ] {
-            assert_eq!(header(line), None, "{line}");
+            assert_eq!(headers(line).next(), None, "{line}");
         }
     }
 

@@ -75,10 +75,14 @@ pub enum CurveProblem {
     #[error("drag coefficient {0} must not be negative")]
     NegativeDrag(f64),
     /// The circle begins at -180 deg.
-    #[error("the first angle must be -180 deg, not {0}")]
+    #[error(
+        "the first angle must be -180 deg, not {0}; `helicopter-rotor polar` extends a file to the full circle"
+    )]
     Begin(f64),
     /// The circle ends at 180 deg.
-    #[error("the last angle must be 180 deg, not {0}")]
+    #[error(
+        "the last angle must be 180 deg, not {0}; `helicopter-rotor polar` extends a file to the full circle"
+    )]
     End(f64),
     /// Angles increase, by more than rounding.
     #[error("angle {alpha} deg must be above the one before ({before})")]

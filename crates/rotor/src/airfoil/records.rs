@@ -35,10 +35,11 @@ pub struct Records<'a> {
     last: usize,
 }
 
-/// The contents of a record: an angle or nothing, then `values` numbers.
+/// The contents of a record: an angle or a label or nothing, then `values` numbers.
 #[derive(Debug, Clone, Copy)]
 pub struct Layout<'a> {
-    /// Whether an angle comes first.
+    /// Whether an angle comes first. Without one, text may stand before the numbers: some files
+    /// have a table's name there.
     pub has_angle: bool,
     /// Number of values.
     pub values: usize,
@@ -82,18 +83,22 @@ impl<'a> Records<'a> {
     fn in_columns(&mut self, layout: Layout) -> Result<Option<Vec<Number>>, Problem> {
         let mut numbers = Vec::new();
         let mut missing = layout.values;
-        let mut has_angle = layout.has_angle;
+        let mut lead = if layout.has_angle {
+            Lead::Angle
+        } else {
+            Lead::Label
+        };
         while missing > 0 {
             let (number, line) = self.line(layout.what)?;
             let here = missing.min(VALUES_PER_LINE);
-            let Some(found) = columns(number, line, has_angle, here) else {
+            let Some(found) = columns(number, line, lead, here) else {
                 return Ok(None);
             };
             for value in found {
                 keep(&mut numbers, value)?;
             }
             missing -= here;
-            has_angle = false;
+            lead = Lead::Blank;
         }
         Ok(Some(numbers))
     }
@@ -105,7 +110,9 @@ impl<'a> Records<'a> {
         let mut count = 0;
         while count < wanted {
             let (line, text) = self.line(layout.what)?;
-            for (column, word) in words(text) {
+            let may_be_label = !layout.has_angle && count == 0;
+            let is_label = |word: &str| may_be_label && is_label(word);
+            for (column, word) in words(text).skip_while(|(_, word)| is_label(word)) {
                 let Some(value) = number(word) else {
                     let problem = format!(
                         "`{}` is not a number; {} is expected, in columns of seven characters or between blanks",
@@ -143,8 +150,22 @@ fn keep(numbers: &mut Vec<Number>, number: Number) -> Result<(), Problem> {
         .map_err(|error| (number.line, number.column, error.to_string()))
 }
 
+/// What the first column of a line holds.
+#[derive(Debug, Clone, Copy)]
+enum Lead {
+    Angle,
+    /// Text or nothing.
+    Label,
+    Blank,
+}
+
+/// Whether a word before the numbers is text.
+fn is_label(word: &str) -> bool {
+    word.starts_with(|c: char| c.is_alphabetic()) && number(word).is_none()
+}
+
 /// The numbers of a line in columns, or None if it does not keep to them.
-fn columns(number: usize, line: &str, has_angle: bool, values: usize) -> Option<Vec<Number>> {
+fn columns(number: usize, line: &str, lead: Lead, values: usize) -> Option<Vec<Number>> {
     if line.contains('\t') {
         return None;
     }
@@ -157,11 +178,13 @@ fn columns(number: usize, line: &str, has_angle: bool, values: usize) -> Option<
         let rest = text.get(place * WIDTH..)?;
         let field: String = rest.iter().take(WIDTH).collect();
         let is_blank = field.trim().is_empty();
-        if place == 0 && !has_angle {
-            if is_blank {
-                continue;
+        if place == 0 {
+            match lead {
+                Lead::Angle => {}
+                Lead::Label if is_blank || is_label(field.trim()) => continue,
+                Lead::Blank if is_blank => continue,
+                Lead::Label | Lead::Blank => return None,
             }
-            return None;
         }
         let before = field.chars().take_while(|c| c.is_whitespace()).count();
         let value = if is_blank && !rest.is_empty() {
@@ -179,7 +202,7 @@ fn columns(number: usize, line: &str, has_angle: bool, values: usize) -> Option<
 }
 
 /// A finite number as Fortran writes it: none for `nan` and for one that overflows.
-fn number(text: &str) -> Option<f64> {
+pub fn number(text: &str) -> Option<f64> {
     let value = text
         .parse()
         .or_else(|_| text.replace(['d', 'D'], "e").parse());
@@ -233,8 +256,15 @@ mod tests {
         ] {
             assert_eq!(values(line, true, 2).unwrap(), expected, "{line}");
         }
-        assert_eq!(values("              0.80", false, 2).unwrap(), [0.0, 0.8]);
-        assert_eq!(values("0 0.8", false, 2).unwrap(), [0.0, 0.8]);
+        for line in [
+            "              0.80",
+            "CL             0.80",
+            "MACH NO   0.00   0.80",
+            "CL\t0\t.8",
+            "0 0.8",
+        ] {
+            assert_eq!(values(line, false, 2).unwrap(), [0.0, 0.8], "{line}");
+        }
     }
 
     #[test]
