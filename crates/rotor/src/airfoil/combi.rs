@@ -26,7 +26,7 @@ use crate::text_file::{excerpt, push};
 
 /// A file is in this format if its text begins with `#1`.
 pub const FORMAT: Format = Format {
-    detects: |_, text| is_combi(text),
+    detects: |_, text| begins(text),
     parse,
 };
 
@@ -62,7 +62,7 @@ struct Matrix {
 }
 
 /// Whether a text begins as a CombiTable file does.
-fn is_combi(text: &str) -> bool {
+pub fn begins(text: &str) -> bool {
     let rest = text.strip_prefix("#1");
     rest.is_some_and(|rest| rest.is_empty() || rest.starts_with(char::is_whitespace))
 }
@@ -85,7 +85,7 @@ pub fn parse(text: &str, file: &str) -> Result<Airfoil, AirfoilError> {
 
 /// All tables of a file.
 fn matrices(text: &str) -> Result<Vec<Matrix>, Problem> {
-    if !is_combi(text) {
+    if !begins(text) {
         return Err((1, 1, "the file must begin with `#1`".into()));
     }
     let mut tables: Vec<Matrix> = Vec::new();

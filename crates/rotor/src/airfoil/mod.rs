@@ -7,6 +7,7 @@
 mod c81;
 mod combi;
 mod curve;
+mod foreign;
 mod formats;
 #[cfg(test)]
 mod fuzz;
@@ -19,6 +20,7 @@ mod summary;
 mod table;
 
 pub use curve::{Coefficient, Curve, CurveError, CurveProblem};
+pub use foreign::Foreign;
 pub use layers::{Axis, Layers, LayersError, LayersProblem};
 pub use table::{Table, TableError, wrapped};
 
@@ -61,6 +63,16 @@ pub enum AirfoilError {
         line: usize,
         /// What is wrong there.
         problem: String,
+    },
+    /// The file of another program.
+    #[error("airfoil file {file}: it looks like {looks_like}; the FMU reads .polar, C81 and CombiTable files; {}", foreign::remedy(*looks_like, file, polar))]
+    Foreign {
+        /// The file's path.
+        file: String,
+        /// What it is.
+        looks_like: Foreign,
+        /// The name of the file that takes its place.
+        polar: String,
     },
     /// A field of a line breaks the rules of its format.
     #[error("airfoil file {file}, line {line}, column {column}: {problem}")]
@@ -182,11 +194,13 @@ impl Airfoil {
     }
 
     /// Reads a file in one of the formats of `formats`: a CombiTable of laws if it begins with
-    /// `#1`, polars by Reynolds number if its name ends in `.polar`, else C81.
+    /// `#1`, polars by Reynolds or Mach number if its name ends in `.polar` or it begins with
+    /// `polar 1`, else C81.
     ///
     /// # Errors
     ///
-    /// The first problem, with its place in the file.
+    /// The first problem, with its place in the file; or what the file is, if another program
+    /// writes such files.
     pub fn read(path: &Path) -> Result<Self, AirfoilError> {
         Self::read_with_hash(path).map(|(airfoil, _)| airfoil)
     }
@@ -213,6 +227,7 @@ impl Airfoil {
     /// As `read`.
     pub fn from_text(text: &str, path: &Path) -> Result<Self, AirfoilError> {
         (formats::detected(path, text).parse)(text, &path.display().to_string())
+            .map_err(|error| foreign::explained(error, text, path))
     }
 
     /// The section's name in the file.
