@@ -15,6 +15,7 @@ mod laws;
 mod layers;
 mod lookup;
 mod polar;
+mod raw;
 mod records;
 mod summary;
 mod table;
@@ -22,6 +23,7 @@ mod table;
 pub use curve::{Coefficient, Curve, CurveError, CurveProblem};
 pub use foreign::Foreign;
 pub use layers::{Axis, Layers, LayersError, LayersProblem};
+pub use raw::RawPolar;
 pub use table::{Table, TableError, wrapped};
 
 use laws::{Laws, Line};
