@@ -305,24 +305,13 @@ fn reynolds(start: &Initialized) -> Option<String> {
         return None;
     }
     let (low, high) = airfoil.range(Axis::Reynolds)?;
-    let mut fitting: Vec<String> = (start.shipped)()
-        .into_iter()
-        .filter(|(_, other)| {
-            let has_range = other.range(Axis::Reynolds).is_some();
-            let is_alike = other.has_laws() == airfoil.has_laws() && other.lifts();
-            has_range && is_alike && serves(other, 1.0)
-        })
-        .map(|(name, _)| name)
-        .collect();
-    fitting.sort();
-    let remedy = if fitting.is_empty() {
-        "no file in the FMU has data there; give one of your own".to_owned()
-    } else {
-        format!(
-            "these files in the FMU have data there: {}",
-            fitting.join(", ")
-        )
-    };
+    let mut fitting = (start.shipped)();
+    fitting.retain(|(_, other)| {
+        let has_range = other.range(Axis::Reynolds).is_some();
+        let is_alike = other.has_laws() == airfoil.has_laws() && other.lifts();
+        has_range && is_alike && serves(other, 1.0)
+    });
+    fitting.sort_by(|(a, _), (b, _)| a.cmp(b));
     let (file, parameter) = match geometry.airfoils[index].as_str() {
         "" => (
             start.values.strings[string::AIRFOIL__FILE].as_str(),
@@ -330,8 +319,27 @@ fn reynolds(start: &Initialized) -> Option<String> {
         ),
         station => (station, "the airfoil of the stations in geometry.file"),
     };
+    let is_same = |other: &Airfoil| section(other.name()) == section(airfoil.name());
+    let same = fitting.iter().position(|(_, other)| is_same(other));
+    let same = same.map(|index| fitting.remove(index).0);
+    let others: Vec<&str> = fitting.iter().map(|(name, _)| name.as_str()).collect();
+    let others = others.join(", ");
+    let remedy = match (same, others.as_str()) {
+        (Some(same), "") => {
+            format!("set {parameter} to {same:?}, the same section with data there")
+        }
+        (Some(same), others) => format!(
+            "set {parameter} to {same:?}, the same section with data there; for other sections the FMU has {others}"
+        ),
+        (None, "") => {
+            format!("no file in the FMU has data there; set {parameter} to one of your own")
+        }
+        (None, others) => format!(
+            "set {parameter} to a file of your own or to one in the FMU with data there: {others}"
+        ),
+    };
     Some(format!(
-        "the Reynolds number at r/R = {radius:.2} is {}, but the airfoil file {file:?} has no data near it, only {}; the nearest data are used. For another section change {parameter}; {remedy}",
+        "the Reynolds number at r/R = {radius:.2} is {}, but the airfoil file {file:?} has no data near it, only {}; the nearest data are used; {remedy}",
         rounded(reynolds),
         if low == high {
             format!("for {}", rounded(low))
@@ -339,6 +347,11 @@ fn reynolds(start: &Initialized) -> Option<String> {
             format!("from {} to {}", rounded(low), rounded(high))
         }
     ))
+}
+
+/// The section that an airfoil's name begins with, before what tells it from other data.
+fn section(name: &str) -> &str {
+    name.split(',').next().unwrap_or(name).trim()
 }
 
 fn lock(start: &Initialized) -> Option<String> {

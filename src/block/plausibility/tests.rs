@@ -361,9 +361,8 @@ fn reynolds_numbers_far_from_the_data_and_files_that_have_them() {
         &large,
         &[
             "only for 242000",
-            "change airfoil.file",
-            "airfoils/naca0012.polar",
-            "goettingen429",
+            "set airfoil.file to \"airfoils/naca0015.polar\", the same section with data there",
+            "for other sections the FMU has airfoils/goettingen429.polar, airfoils/naca0012.polar",
         ],
     );
     for absent in ["circle", "naca0015.txt", "wheatley", "knight-hefner"] {
@@ -374,7 +373,10 @@ fn reynolds_numbers_far_from_the_data_and_files_that_have_them() {
         );
     }
     let small = with_reals(&[(real::RPM, 20.0)]);
-    says(&small, &["no file in the FMU has data there"]);
+    says(
+        &small,
+        &["no file in the FMU has data there; set airfoil.file to one of your own"],
+    );
     let station = warned(|block| {
         let file = "pca-2.toml";
         block
@@ -384,7 +386,9 @@ fn reynolds_numbers_far_from_the_data_and_files_that_have_them() {
     });
     says(
         &station,
-        &["change the airfoil of the stations in geometry.file"],
+        &[
+            "set the airfoil of the stations in geometry.file to a file of your own or to one in the FMU with data there: airfoils/",
+        ],
     );
 }
 
