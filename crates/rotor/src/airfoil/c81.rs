@@ -242,17 +242,20 @@ fn set<T>(
     Err(farthest.unwrap_or_else(|| no_counts(line, first)))
 }
 
-/// The error of a first line without counts.
+/// The error of a first line without counts: the first of them that is wrong.
 fn no_counts(line: usize, first: &str) -> Problem {
-    let field: String = first.chars().skip(COUNTS_COLUMN).take(2).collect();
-    let found = match field.trim() {
-        "" => "the first line ends without counts".to_owned(),
+    let begin = |i: usize| COUNTS_COLUMN + 2 * i;
+    let field = |i: usize| first.chars().skip(begin(i)).take(2).collect::<String>();
+    let is_wrong = |i: &usize| count(field(*i).trim()).is_none();
+    let wrong = (0..NEEDED_COUNTS).find(is_wrong).unwrap_or(0);
+    let found = match field(wrong).trim() {
+        "" => "the first line ends without the counts".to_owned(),
         field => format!("`{}` is not a count", excerpt(field)),
     };
     let problem = format!(
         "{found}; columns 31-42 hold ML, NL, MD, ND, MM and NM in two digits each, or the line ends with these numbers between blanks"
     );
-    (line, COUNTS_COLUMN + 1, problem)
+    (line, begin(wrong) + 1, problem)
 }
 
 fn count(text: &str) -> Option<usize> {
@@ -261,14 +264,28 @@ fn count(text: &str) -> Option<usize> {
     value.filter(|n| (1..=MAX_COUNT).contains(n))
 }
 
-/// The ways to read a first line, the most usual first.
+/// The ways to read a first line, the most usual first; none for a row of a table.
 fn headers(line: &str) -> impl Iterator<Item = Header> + '_ {
+    let line = if is_row(line) { "" } else { line };
     let usual = header_in_columns(line, COUNTS_COLUMN).into_iter();
     let one_off = [COUNTS_COLUMN - 1, COUNTS_COLUMN + 1];
     let one_off = one_off
         .into_iter()
         .flat_map(move |column| header_in_columns(line, column));
     usual.chain(free_header(line)).chain(one_off)
+}
+
+/// Whether a line is a row of a table: only numbers, of which one is negative or two have decimals.
+fn is_row(line: &str) -> bool {
+    let (mut is_negative, mut decimals) = (false, 0);
+    for (_, word) in words(line) {
+        let Some(value) = records::number(word) else {
+            return false;
+        };
+        is_negative |= value < 0.0;
+        decimals += usize::from(word.contains('.'));
+    }
+    is_negative || decimals > 1
 }
 
 /// Counts of two digits behind `begin` characters.
@@ -741,16 +758,20 @@ Test section                   2 4 1 3 1 2
         for (line, part) in [
             (
                 "NACA 0012",
-                "the first line ends without counts; columns 31-42 hold",
+                "column 31: the first line ends without the counts; columns 31-42 hold",
             ),
             (
                 "NACA 0012                      x 4 1 3 1 2",
-                "`x` is not a count; columns",
+                "column 31: `x` is not a count; columns",
+            ),
+            (
+                "NACA 0012                      2 4 O 3 1 2",
+                "column 35: `O` is not a count; columns",
             ),
         ] {
             let error = parse(line, "x.c81").unwrap_err().to_string();
             assert!(
-                error.contains("line 1, column 31: ") && error.contains(part),
+                error.contains("line 1, ") && error.contains(part),
                 "{error}"
             );
         }
@@ -780,6 +801,9 @@ Test section                   2 4 1 3 1 2
             "name 4 1 3 1 2",
             "name 0 4 1 3 1 2",
             "name 2 4 1 9999999999999999999999",
+            "-9.000000000000000000e+01 -7.678535430653904863e-17",
+            "-90, -60, -30, 0, 5, 10, 20, 40, 60, 90",
+            "0.5 0.25 10 10 10 10",
         ] {
             assert_eq!(headers(line).next(), None, "{line}");
         }

@@ -140,7 +140,7 @@ fn of_numbers(text: &str) -> Option<Foreign> {
         }
     }
     match (tables, begin) {
-        (2.., [0, 1, 1, 3]) => Some(Foreign::CcBlade),
+        (2.., [0, 1, 1, 3 | 4]) => Some(Foreign::CcBlade),
         (2.., _) => Some(Foreign::Columns),
         // Two numbers may also count the points of both sides.
         _ if pairs >= 10 && on_contour + 1 >= pairs => Some(Foreign::Coordinates),
@@ -183,7 +183,7 @@ mod tests {
     use super::*;
 
     /// Small files in the form of each program, with what they are.
-    const FILES: [(Foreign, &str); 12] = [
+    const FILES: [(Foreign, &str); 14] = [
         (
             Foreign::Xfoil,
             "\n       XFOIL         Version 6.99\n\n Calculated polar for: TEST\n\n 1 1 Reynolds number fixed          Mach number fixed\n\n Mach =   0.000     Re =     0.500 e 6     Ncrit =   9.000\n\n   alpha    CL        CD\n  ------ -------- ---------\n   0.000   0.1000   0.01000\n   1.000   0.2000   0.01000\n",
@@ -213,6 +213,10 @@ mod tests {
             "Test (no rotation)\n1000000\n0\n-0.1\t-0.5\t0.02\n0.1\t0.5\t0.02\n",
         ),
         (
+            Foreign::CcBlade,
+            "Test, old\n0.0\n0.0\n-180.0 0.0 0.02 0.1\n180.0 0.0 0.02 0.1\n",
+        ),
+        (
             Foreign::C81,
             "Test 1 2 1 2\n0\n-180 0\n180 0\n0\n-180 0.1\n180 0.1\n",
         ),
@@ -226,6 +230,10 @@ mod tests {
         ),
         (Foreign::Columns, "alpha,cl,cd\n-1,-0.1,0.01\n1,0.1,0.01\n"),
         (Foreign::Columns, "-1\t-0.1\t0.01\n1\t0.1\t0.01\n"),
+        (
+            Foreign::Columns,
+            "# Re = 0.05e6\n-9.000000000000000000e+01 -7.678535430653904863e-17 1.254000000000000004e+00\n-8.818181818181817277e+01 -3.979925730190594230e-02 1.254253572299562913e+00\n",
+        ),
     ];
 
     #[test]
