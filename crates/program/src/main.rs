@@ -6,6 +6,7 @@ mod examples;
 mod files;
 mod output;
 mod package;
+mod polar;
 mod process;
 mod progress;
 mod python;
@@ -55,6 +56,11 @@ enum Command {
         #[command(flatten)]
         selection: package::Selection,
     },
+    /// Make a .polar file of the section data of other programs, and draw it
+    ///
+    /// Says what each file was taken for. Data that end before the full circle are extended; the
+    /// rows that are not data are marked.
+    Polar(#[command(flatten)] polar::Options),
     /// Run the examples in fmu-examples/: tables and pictures of systems that contain the rotor
     Examples {
         /// Run only these
@@ -145,6 +151,9 @@ fn parse_and_run() -> Result<ExitCode, Failure> {
 }
 
 fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
+    if let Some(Command::Polar(options)) = &command {
+        return polar::run(options);
+    }
     let target = target_folder()?;
     let given = library.clone();
     let library = || library.map_or_else(|| package::library::build(&target), Ok);
@@ -157,6 +166,8 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
             package::write(&out, &selection.contents(given, &target)?)?;
             output::print(format_args!("Made {}", out.display()))
         }
+        // Has returned above, as it needs no source tree.
+        Some(Command::Polar(_)) => Ok(()),
         Some(Command::Examples { names, out }) => {
             let out = out.unwrap_or_else(|| target.join("examples"));
             let fmu = out.join("HelicopterRotor.fmu");

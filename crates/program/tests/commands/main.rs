@@ -13,6 +13,7 @@ mod importers_table;
 mod package;
 mod package_out;
 mod platforms;
+mod polar;
 mod reference;
 mod support;
 mod tables;
