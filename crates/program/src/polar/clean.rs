@@ -19,7 +19,7 @@ pub fn clean(
     notes: &mut Vec<String>,
 ) -> Result<(), Failure> {
     let points = &mut polar.points;
-    let file = &polar.file;
+    let file = &polar.source;
     if let Some(bad) = points.iter().find(|p| p.drag < 0.0) {
         return Err(Failure(format!(
             "{file}: the drag coefficient at {} deg is {}; drag cannot be negative: correct the row or leave it out",

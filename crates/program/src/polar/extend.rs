@@ -60,7 +60,7 @@ pub fn to_full_circle(
 ) -> Result<Vec<Row>, Failure> {
     let points = &polar.points;
     let (Some(first), Some(last)) = (points.first(), points.last()) else {
-        return Err(Failure(format!("{} has no rows", polar.file)));
+        return Err(Failure(format!("{} has no rows", polar.source)));
     };
     let how = How {
         // As AirfoilPrep: no section is blunter than its own data.
@@ -120,7 +120,7 @@ fn warn_before_stall(polar: &Polar, notes: &mut Vec<String>) {
         if has_lift && is_beyond && end.alpha.abs() < 90.0 {
             notes.push(format!(
                 "{}: the data end at {} deg, where the lift still {word}; the stall beyond is the method's and not the section's",
-                polar.file, end.alpha
+                polar.source, end.alpha
             ));
         }
     }
@@ -150,7 +150,7 @@ fn back(
             if (first.lift, first.drag) != (last.lift, last.drag) {
                 notes.push(format!(
                     "{}: -180 and 180 deg, which are one angle, have lift {} and {} and drag {} and {}; their means are written",
-                    polar.file, first.lift, last.lift, first.drag, last.drag
+                    polar.source, first.lift, last.lift, first.drag, last.drag
                 ));
             }
             (lift, drag)

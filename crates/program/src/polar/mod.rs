@@ -91,8 +91,8 @@ pub struct Point {
 /// The polar at one Reynolds and Mach number.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polar {
-    /// The file's name, without its folder.
-    pub file: String,
+    /// The file's name, without its folder, and of several polars in a file which one.
+    pub source: String,
     /// None if the file has none.
     pub reynolds: Option<f64>,
     /// None if the file has none.

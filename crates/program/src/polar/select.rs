@@ -153,11 +153,11 @@ fn missing(polar: &Polar, by: By) -> Failure {
     Failure(match by {
         By::Reynolds => format!(
             "{} does not say for which Reynolds number it is; give it with --reynolds",
-            polar.file
+            polar.source
         ),
         By::Mach => format!(
             "{} does not say for which Mach number it is; make the blocks by Reynolds number",
-            polar.file
+            polar.source
         ),
     })
 }
@@ -171,13 +171,13 @@ fn twice(number: f64, first: &Polar, second: &Polar, by: By) -> Failure {
     match (a, b) {
         (Some(a), Some(b)) if !is_same(a, b) => Failure(format!(
             "{} and {} are both for the {word} {number}, and for the {}s {a} and {b}; choose one of these with --at",
-            first.file,
-            second.file,
+            first.source,
+            second.source,
             words(other(by))
         )),
         _ => Failure(format!(
             "{} and {} are both for the {word} {number}; leave one out",
-            first.file, second.file
+            first.source, second.source
         )),
     }
 }

@@ -130,15 +130,29 @@ fn content(path: &Path, text: &str, angles: Option<Angles>) -> Result<Content, F
             "{file}: the angles are taken for rad, by the slope of the lift; add --angles deg if they are deg"
         ));
     }
+    let is_one = tables
+        .tables
+        .iter()
+        .filter(|t| !t.points.is_empty())
+        .count()
+        == 1;
     for mut table in tables.tables {
         if table.points.is_empty() {
             continue;
         }
+        let source = match (table.reynolds, table.mach) {
+            (Some(reynolds), Some(mach)) if !is_one => {
+                format!("{file} at Reynolds number {reynolds} and Mach number {mach}")
+            }
+            (Some(reynolds), None) if !is_one => format!("{file} at Reynolds number {reynolds}"),
+            (None, Some(mach)) if !is_one => format!("{file} at Mach number {mach}"),
+            _ => file.clone(),
+        };
         for point in table.points.iter_mut().filter(|_| is_rad) {
             point.alpha = point.alpha.to_degrees();
         }
         polars.push(Polar {
-            file: file.clone(),
+            source,
             reynolds: table.reynolds,
             mach: table.mach,
             points: table.points,
