@@ -100,20 +100,19 @@ pub fn parse(text: &str, file: &str) -> Result<Airfoil, AirfoilError> {
 }
 
 fn read(text: &str) -> Result<Airfoil, Problem> {
-    let mut sets = sets(text, |coefficient, numbers| table(coefficient, &numbers))?;
-    match (sets.pop(), sets.len()) {
-        (Some(set), 0) => {
-            let (lift, drag) = (set.lift, set.drag);
-            Ok(Airfoil::new(set.name, Data::Tables { lift, drag }))
-        }
-        (_, others) => {
-            let problem = format!(
-                "the file has tables for {} Reynolds numbers, of which one can be read; `helicopter-rotor polar` takes one of them, or one Mach number, out of the file",
-                others + 1
-            );
-            Err((1, 1, problem))
-        }
+    // Before the tables take memory.
+    if let Some(count) = preface(&mut Records::new(text)).filter(|count| *count > 1) {
+        let problem = format!(
+            "the file has tables for {count} Reynolds numbers, of which one can be read; `helicopter-rotor polar` takes one of them, or one Mach number, out of the file"
+        );
+        return Err((1, 1, problem));
     }
+    let sets = sets(text, |coefficient, numbers| table(coefficient, &numbers))?;
+    let set = sets.into_iter().next();
+    let Set {
+        name, lift, drag, ..
+    } = set.ok_or((1, 1, "the file has no tables".to_owned()))?;
+    Ok(Airfoil::new(name, Data::Tables { lift, drag }))
 }
 
 /// The tables of a file, one set for each Reynolds number, at least one. `made_of` makes a table of
@@ -729,10 +728,10 @@ Test section                   2 4 1 3 1 2
             );
         }
         let missing = format!("{begin}{}", set("1e5"));
-        let error = parse(&missing, "dust.c81").unwrap_err().to_string();
+        let (_, _, problem) = sets(&missing, |_, _| Ok(())).unwrap_err();
         assert!(
-            error.contains("the file ends before the line with the counts"),
-            "{error}"
+            problem.contains("the file ends before the line with the counts"),
+            "{problem}"
         );
         let other = "1 0 0\n0 1\n0 0\na\nb\nc\nd\ne\nf\n";
         let error = parse(other, "dust.c81").unwrap_err().to_string();
