@@ -33,9 +33,7 @@ impl File<'_> {
         let version = env!("CARGO_PKG_VERSION");
         comment(
             &mut text,
-            &format!(
-                "Made by helicopter-rotor polar {version} of these files, whose values are written as they are:"
-            ),
+            &format!("Made by helicopter-rotor polar {version} of"),
         );
         for source in self.sources {
             comment(&mut text, &format!("- {source}"));
@@ -47,7 +45,7 @@ impl File<'_> {
             comment(
                 &mut text,
                 &format!(
-                    "Rows that end in \"# extended\" are no data but {}",
+                    "Rows that end in \"# extended\" are not data. They follow {}",
                     how.in_words()
                 ),
             );

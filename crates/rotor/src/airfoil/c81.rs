@@ -264,14 +264,13 @@ fn count(text: &str) -> Option<usize> {
 }
 
 /// The ways to read a first line, the most usual first; none for a row of a table.
-fn headers(line: &str) -> impl Iterator<Item = Header> + '_ {
+fn headers(line: &str) -> impl Iterator<Item = Header> {
     let line = if is_row(line) { "" } else { line };
-    let usual = header_in_columns(line, COUNTS_COLUMN).into_iter();
-    let one_off = [COUNTS_COLUMN - 1, COUNTS_COLUMN + 1];
-    let one_off = one_off
+    let [usual, early, late] = [COUNTS_COLUMN, COUNTS_COLUMN - 1, COUNTS_COLUMN + 1]
+        .map(|column| header_in_columns(line, column));
+    [usual, free_header(line), early, late]
         .into_iter()
-        .flat_map(move |column| header_in_columns(line, column));
-    usual.chain(free_header(line)).chain(one_off)
+        .flatten()
 }
 
 /// Whether a line is a row of a table: only numbers, of which one is negative or two have decimals.
@@ -292,21 +291,33 @@ fn header_in_columns(line: &str, begin: usize) -> Option<Header> {
     if line.contains('\t') {
         return None;
     }
-    let text: Vec<char> = line.chars().take(begin + 2 * COUNTS).collect();
-    let field = |i: usize| -> Option<String> {
-        let field = text.get(begin + 2 * i..)?.iter().take(2);
-        Some(field.collect::<String>().trim().to_owned())
-    };
-    let mut counts = [0; NEEDED_COUNTS];
-    for (i, slot) in counts.iter_mut().enumerate() {
-        *slot = count(&field(i)?)?;
+    // Where each character and the end begin.
+    let places = line.char_indices().map(|(place, _)| place);
+    let mut places = places.chain([line.len()]).skip(begin);
+    let mut from = places.next()?;
+    let name = excerpt(line[..from].trim());
+    let mut all = [0; COUNTS];
+    for (i, slot) in all.iter_mut().enumerate() {
+        // The last field may be short of a character.
+        let to = places.by_ref().take(2).last().unwrap_or(from);
+        match count(line[from..to].trim()) {
+            Some(count) => *slot = count,
+            None if i < NEEDED_COUNTS => return None,
+            None => {}
+        }
+        from = to;
     }
-    let moment = [NEEDED_COUNTS, NEEDED_COUNTS + 1].map(|i| field(i).and_then(|f| count(&f)));
-    let name: String = text.iter().take(begin).collect();
+    let [
+        lift_machs,
+        lift_angles,
+        drag_machs,
+        drag_angles,
+        moment @ ..,
+    ] = all;
     Some(Header {
-        name: excerpt(name.trim()),
-        counts,
-        moment: moment.map(|count| count.unwrap_or(0)),
+        name,
+        counts: [lift_machs, lift_angles, drag_machs, drag_angles],
+        moment,
     })
 }
 
