@@ -108,7 +108,7 @@ fn malformed_polars_are_refused_with_the_place() {
         (
             "header-only.polar",
             b"polar 1\nname x\n",
-            "no `reynolds` block",
+            "no `reynolds` or `mach` block",
         ),
         (
             "nan.polar",

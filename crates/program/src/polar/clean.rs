@@ -79,12 +79,15 @@ fn without_repetitions(
 ) -> Result<Vec<Point>, Failure> {
     let mut kept: Vec<Point> = Vec::new();
     let (mut same, mut mean) = (0, 0);
+    // Number of rows in the last of those kept.
+    let mut rows = 1.0;
     for point in points {
         let Some(last) = kept
             .last_mut()
             .filter(|p| point.alpha - p.alpha < SAME_ANGLE)
         else {
             kept.push(*point);
+            rows = 1.0;
             continue;
         };
         if (last.lift, last.drag) == (point.lift, point.drag) {
@@ -99,8 +102,9 @@ fn without_repetitions(
                 point.alpha, last.lift, point.lift, last.drag, point.drag
             )));
         }
-        last.lift = 0.5 * (last.lift + point.lift);
-        last.drag = 0.5 * (last.drag + point.drag);
+        rows += 1.0;
+        last.lift += (point.lift - last.lift) / rows;
+        last.drag += (point.drag - last.drag) / rows;
         mean += 1;
     }
     if same > 0 {
@@ -108,7 +112,7 @@ fn without_repetitions(
     }
     if mean > 0 {
         notes.push(format!(
-            "{file}: of rows at one angle that differ by less than {SAME_LIFT} in lift the mean is taken: {mean}"
+            "{file}: of rows at one angle that differ by less than {SAME_LIFT} in lift and 10 % in drag the mean is taken: {mean}"
         ));
     }
     Ok(kept)

@@ -62,11 +62,15 @@ pub fn to_full_circle(
     let (Some(first), Some(last)) = (points.first(), points.last()) else {
         return Err(Failure(format!("{} has no rows", polar.source)));
     };
-    let how = How {
-        // As AirfoilPrep: no section is blunter than its own data.
-        cd_max: points.iter().map(|p| p.drag).fold(how.cd_max, f64::max),
-        ..*how
-    };
+    // As AirfoilPrep: no section is blunter than its own data.
+    let cd_max = points.iter().map(|p| p.drag).fold(how.cd_max, f64::max);
+    if cd_max > how.cd_max {
+        notes.push(format!(
+            "{}: CDmax is {cd_max}, the largest drag of the data, instead of {}",
+            polar.source, how.cd_max
+        ));
+    }
+    let how = How { cd_max, ..*how };
     let least = points.iter().map(|p| p.drag).fold(f64::INFINITY, f64::min);
     let side = |end: Point| Side {
         how: &how,

@@ -184,7 +184,7 @@ fn twice(number: f64, first: &Polar, second: &Polar, by: By) -> Failure {
 
 /// A polar at a Mach number already contains what the rules for compressibility add.
 fn warn_of_mach(polars: &[(f64, Polar)], by: By, notes: &mut Vec<String>) {
-    // Below, the rule changes the lift by less than 2 %.
+    // Below, the rule changes the lift by about 2 % or less.
     const LOW: f64 = 0.2;
     let machs = polars.iter().filter_map(|(_, polar)| polar.mach);
     let highest = machs.fold(0.0, f64::max);

@@ -297,7 +297,7 @@ impl Method for ByNewton {
                 break;
             }
         }
-        // Where F is 1 but for rounding, so is the flow `begin`.
+        // Where F is 1 but for rounding, the flow is `begin` but for rounding.
         let is_inside = !((through - begin) * (limit - through)).is_below(0.0)
             | !(through - begin).abs().above(accuracy);
         if (is_found & (is_inside | !has_lift)).all() {
