@@ -112,8 +112,8 @@ fn color(index: usize, count: usize) -> HSLColor {
     HSLColor(0.62 - 0.62 * place, 0.8, 0.42)
 }
 
-/// The lines of a block in a range of angles, each of data or of what was added. A line that was added begins and ends
-/// at the data beside it.
+/// The lines of a block in a range of angles, each of data or of what was added. A line that was
+/// added begins and ends at the data beside it.
 fn pieces(
     block: &Block,
     range: (f64, f64),

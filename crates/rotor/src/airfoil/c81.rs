@@ -651,8 +651,8 @@ Test section                   2 4 1 3 1 2
         }
     }
 
-    /// The forms of DUST (`read_c81_table`), OpenCOPTER and MBDyn (`c81_data_write_free_format`), and
-    /// headers and Mach lines that people have moved.
+    /// The forms of DUST (`read_c81_table`), OpenCOPTER and MBDyn (`c81_data_write_free_format`),
+    /// and headers and Mach lines that people have moved.
     #[test]
     fn the_dialects_of_other_programs_are_the_same_file() {
         let good = sampled(&parse(GOOD, "good.c81").unwrap());

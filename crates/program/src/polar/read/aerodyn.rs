@@ -65,9 +65,9 @@ pub fn read_info(text: &str, file: &str) -> Result<Tables, Failure> {
     Ok(tables)
 }
 
-/// Reads a file of AeroDyn 13 or 14: lines that begin with numbers and say what they are, then rows of
-/// an angle and lift, drag and moment of each table; or the tables one after the other, each with
-/// such lines.
+/// Reads a file of AeroDyn 13 or 14: lines that begin with numbers and say what they are, then rows
+/// of an angle and lift, drag and moment of each table; or the tables one after the other, each
+/// with such lines.
 pub fn read(text: &str, file: &str) -> Result<Tables, Failure> {
     let mut tables = Tables {
         angles: Some(Angles::Deg),

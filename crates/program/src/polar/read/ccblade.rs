@@ -1,5 +1,5 @@
-//! Tables of CCBlade.jl: a line of text, Reynolds number, Mach number, then rows of angle in rad, lift
-//! and drag (`AlphaAF`).
+//! Tables of CCBlade.jl: a line of text, Reynolds number, Mach number, then rows of angle in rad,
+//! lift and drag (`AlphaAF`).
 
 use super::{Table, Tables, line::numbers};
 use crate::polar::{Angles, Point};

@@ -1,5 +1,5 @@
-//! QBlade's `.plr` files: keywords, then rows of an angle and, for each Reynolds number, lift, drag and
-//! moment (and three more columns if decomposed).
+//! QBlade's `.plr` files: keywords, then rows of an angle and, for each Reynolds number, lift, drag
+//! and moment (and three more columns if decomposed).
 
 use super::{
     Table, Tables,

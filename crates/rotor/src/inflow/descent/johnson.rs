@@ -101,8 +101,8 @@ pub fn speed<S: Scalar>(edgewise: S, climb: S, induced: S) -> S {
 }
 
 /// The v_h, m/s, at which the model gives v from V_x, V_c and v, m/s. Newton's method, halving the
-/// bracket where it leaves that or hardly gets on (Press et al. 1992, "Numerical Recipes", ch. 9.4):
-/// the slope jumps at the knots.
+/// bracket where it leaves that or hardly gets on (Press et al. 1992, "Numerical Recipes", ch.
+/// 9.4): the slope jumps at the knots.
 fn hover_velocity((edgewise, climb, induced): (f64, f64, f64)) -> Option<f64> {
     let surplus = |hover: f64| {
         let hover = Dual64::new(hover, 1.0);
