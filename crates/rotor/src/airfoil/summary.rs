@@ -88,6 +88,17 @@ mod tests {
         long.drag_coefficient(model, alpha, flow)
     }
 
+    /// The line of the lift as it is without the summary.
+    fn line_plainly<S: Scalar>(
+        airfoil: &Airfoil,
+        model: &SectionModel,
+        flow: Similarity<S>,
+    ) -> (S, S) {
+        let mut long = airfoil.clone();
+        long.summary.line = None;
+        long.lift_line(model, 0.0, flow)
+    }
+
     #[test]
     fn the_summary_changes_no_answer() {
         let model = SectionModel {
@@ -95,7 +106,7 @@ mod tests {
             compressibility: Compressibility::None,
             drag_reynolds_exponent: 0.2,
         };
-        let mut spared = 0;
+        let (mut spared, mut lines) = (0, 0);
         for airfoil in POLARS.map(|text| polar::parse(text, "test").unwrap()) {
             for i in -1800..=1800 {
                 let alpha = f64::from(i) * 0.1_f64.to_radians();
@@ -107,6 +118,9 @@ mod tests {
                     let alpha = Dual64::new(alpha, 0.3);
                     let drag = airfoil.drag_coefficient(&model, alpha, flow);
                     assert_eq!(drag, plainly(&airfoil, &model, alpha, flow));
+                    let line = airfoil.lift_line(&model, 0.0, flow);
+                    assert_eq!(line, line_plainly(&airfoil, &model, flow));
+                    lines += u32::from(airfoil.summary.line.is_some());
                     let (negative, positive) = airfoil.stall_angles(flow);
                     let angle = wrapped(alpha).re;
                     if airfoil.is_unstalled(angle) {
@@ -116,6 +130,6 @@ mod tests {
                 }
             }
         }
-        assert!(spared > 1000, "the summary spares nothing");
+        assert!(spared > 1000 && lines > 1000, "the summary spares nothing");
     }
 }
