@@ -253,7 +253,7 @@ impl<L: Lanes> Equation<L> for MeanBalance<'_, L> {
         let climb = L::splat(flow.climb);
         element
             .work
-            .count(momentum.descent.work_of(climb, far.axial));
+            .count(momentum.descent.work_of(L::nil(), climb, far.axial));
         let edgewise = L::splat(flow.edgewise);
         let resultant = momentum.descent.speeds(edgewise, climb, far.axial) / speed;
         let factor = element.tip_loss_factor(wake_sine(flow, momentum, *undisturbed, inflow_angle));

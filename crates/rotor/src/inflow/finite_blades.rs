@@ -101,7 +101,7 @@ pub fn solve<L: Lanes>(
     let mass_flow = |v: L| {
         element
             .work
-            .count(momentum.descent.work_of(section.through, v));
+            .count(momentum.descent.work_of(edgewise, section.through, v));
         momentum.descent.speeds(edgewise, section.through, v)
     };
     let scale = L::Real::select(is_still, L::Real::unit(), scale);

@@ -42,7 +42,7 @@ const E: f64 = -2.0;
 /// V_x at which the boundaries of instability meet.
 const V_XM: f64 = 0.95;
 
-/// Bound on the steps towards v_h; about five are usual.
+/// Bound on the steps towards v_h; seven are usual.
 const MAX_STEPS: u32 = 200;
 
 /// The search for v_h ends at a step of this part of it.
