@@ -27,7 +27,7 @@ use super::{
     Airfoil, AirfoilError, Axis, Coefficient, CurveProblem, Data, Layers, Table, TableError,
     formats::{Format, has_extension},
     layers::MAX_LAYERS,
-    records::{self, Layout, Number, Problem, Records, words},
+    records::{self, Layout, Number, Problem, Records, is_separator, placed_words, words},
 };
 use crate::text_file::{excerpt, push};
 
@@ -161,7 +161,7 @@ fn preface(records: &mut Records) -> Option<usize> {
     let (_, first) = ahead.line("the header").ok()?;
     let is_whole = |text: &str| text.len() <= 2 && text.bytes().all(|b| b.is_ascii_digit());
     let mut count = 0;
-    for (i, (_, word)) in words(first).enumerate() {
+    for (i, word) in words(first).enumerate() {
         if i == 3 || !is_whole(word) {
             return None;
         }
@@ -171,7 +171,7 @@ fn preface(records: &mut Records) -> Option<usize> {
     }
     for _ in 0..2 {
         let (_, line) = ahead.line("the header").ok()?;
-        if words(line).count() > 2 || words(line).any(|(_, word)| records::number(word).is_none()) {
+        if words(line).count() > 2 || words(line).any(|word| records::number(word).is_none()) {
             return None;
         }
     }
@@ -187,9 +187,7 @@ fn next_header<'a>(records: &mut Records<'a>) -> Result<((usize, &'a str), Optio
         if headers(text).next().is_some() {
             return Ok(((line, text), reynolds));
         }
-        let number = words(text)
-            .next()
-            .and_then(|(_, word)| records::number(word));
+        let number = words(text).next().and_then(records::number);
         reynolds = number.filter(|re| *re >= MIN_REYNOLDS).or(reynolds);
     }
     let (line, _) = records.line("the line with the counts of the tables")?;
@@ -276,7 +274,7 @@ fn headers(line: &str) -> impl Iterator<Item = Header> {
 /// Whether a line is a row of a table: only numbers, of which one is negative or two have decimals.
 fn is_row(line: &str) -> bool {
     let (mut is_negative, mut decimals) = (false, 0);
-    for (_, word) in words(line) {
+    for word in words(line) {
         let Some(value) = records::number(word) else {
             return false;
         };
@@ -325,7 +323,7 @@ fn header_in_columns(line: &str, begin: usize) -> Option<Header> {
 fn free_header(line: &str) -> Option<Header> {
     // The last words, as far as they are numbers.
     let mut numbers: Vec<(usize, &str)> = Vec::new();
-    for (column, word) in words(line) {
+    for (column, word) in placed_words(line) {
         if !word.bytes().all(|b| b.is_ascii_digit()) {
             numbers.clear();
             continue;
@@ -361,9 +359,8 @@ fn free_header(line: &str) -> Option<Header> {
     let moment = [NEEDED_COUNTS, NEEDED_COUNTS + 1].map(|i| texts.get(i).and_then(|t| count(t)));
     let end = line.char_indices().nth(begin - 1);
     let name = &line[..end.map_or(line.len(), |(index, _)| index)];
-    let is_around = |c: char| c.is_whitespace() || c == ',' || c == ';';
     Some(Header {
-        name: excerpt(name.trim_matches(is_around)),
+        name: excerpt(name.trim_matches(is_separator)),
         counts,
         moment: moment.map(|count| count.unwrap_or(0)),
     })
@@ -395,15 +392,28 @@ fn numbers(
     Ok(Numbers { machs, rows })
 }
 
-/// The table of a coefficient with these numbers.
-fn table(coefficient: Coefficient, Numbers { machs, rows }: &Numbers) -> Result<Table, Problem> {
-    let name = match coefficient {
+fn name(coefficient: Coefficient) -> &'static str {
+    match coefficient {
         Coefficient::Lift => "lift",
         Coefficient::Drag => "drag",
-    };
-    let at = |number: &Number, problem: String| (number.line, number.column, problem);
-    let layers = Layers::try_new(Axis::Mach, machs.iter().map(|n| n.value))
-        .map_err(|error| at(&machs[error.layer], format!("{name} table: {error}")))?;
+    }
+}
+
+/// The problem at a number.
+fn at(number: &Number, problem: String) -> Problem {
+    (number.line, number.column, problem)
+}
+
+/// The layers of a coefficient at these Mach numbers.
+pub fn layers(coefficient: Coefficient, machs: &[Number]) -> Result<Layers, Problem> {
+    let name = name(coefficient);
+    Layers::try_new(Axis::Mach, machs.iter().map(|n| n.value))
+        .map_err(|error| at(&machs[error.layer], format!("{name} table: {error}")))
+}
+
+/// The table of a coefficient with these numbers.
+fn table(coefficient: Coefficient, Numbers { machs, rows }: &Numbers) -> Result<Table, Problem> {
+    let layers = layers(coefficient, machs)?;
     let points = |mach: usize| {
         rows.iter()
             .map(move |row| (row[0].value, row[mach + 1].value))
@@ -422,7 +432,7 @@ fn table(coefficient: Coefficient, Numbers { machs, rows }: &Numbers) -> Result<
             | CurveProblem::NegativeDrag(_)
             | CurveProblem::TooSteep { .. } => &row[layer + 1],
         };
-        let angles = rows.len();
+        let (name, angles) = (name(coefficient), rows.len());
         let problem = format!("{name} table of {angles} angles by the first line: {error}");
         at(number, problem)
     })

@@ -20,7 +20,7 @@ use super::{
     formats::Format,
     laws::{Coefficients, Law, LawError, Laws},
     layers::{Axis, MAX_LAYERS, check_count},
-    records::{Number, Problem, words},
+    records::{Number, Problem, placed_words},
 };
 use crate::text_file::{excerpt, push};
 
@@ -110,7 +110,7 @@ fn matrices(text: &str) -> Result<Vec<Matrix>, Problem> {
             tables.push(header(content, line)?);
             continue;
         }
-        for (column, word) in words(content) {
+        for (column, word) in placed_words(content) {
             let Some(table) = tables.last_mut() else {
                 let problem = format!(
                     "`{}` before the first table, which begins with a line like `double {NAME}(2, 7)`",

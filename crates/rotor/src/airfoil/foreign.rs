@@ -120,7 +120,7 @@ fn of_numbers(text: &str) -> Option<Foreign> {
     for (i, line) in lines.take(TABLE).enumerate() {
         let mut numbers = [0.0; 2];
         let mut count = 0;
-        for (_, word) in words(line) {
+        for word in words(line) {
             let Some(value) = number(word) else {
                 count = 0;
                 break;

@@ -20,7 +20,7 @@ use super::{
     Airfoil, AirfoilError, Axis, Coefficient, Data, Layers, Table, TableError,
     formats::{Format, has_extension},
     layers::check_count,
-    records::{self, words},
+    records::{self, is_separator, words},
 };
 use crate::text_file::{excerpt, push};
 
@@ -99,7 +99,7 @@ pub fn begins(text: &str) -> bool {
 }
 
 fn is_first(line: &str) -> bool {
-    let mut words = words(line).map(|(_, word)| word);
+    let mut words = words(line);
     words
         .next()
         .is_some_and(|w| w.eq_ignore_ascii_case("polar"))
@@ -130,11 +130,10 @@ pub fn blocks(text: &str) -> Result<(String, Axis, Vec<Block>), Problem> {
     let mut last_line = 1;
     for (line, content) in lines {
         last_line = line;
-        let (_, word) = words(content).next().unwrap_or((1, content));
+        let word = words(content).next().unwrap_or(content);
         if word.eq_ignore_ascii_case("name") {
-            let is_around = |c: char| c.is_whitespace() || c == ',' || c == ';';
-            let rest = content.trim_start_matches(is_around).get(word.len()..);
-            name = excerpt(rest.unwrap_or("").trim_matches(is_around));
+            let rest = content.trim_start_matches(is_separator).get(word.len()..);
+            name = excerpt(rest.unwrap_or("").trim_matches(is_separator));
         } else if let Some(axis) = axis(word) {
             let first = blocks.first().map(|block| (block.axis, block.line));
             let block = block(line, axis, content, first)?;
@@ -180,7 +179,7 @@ fn block(
         );
         return Err((line, problem));
     }
-    let mut numbers = words(content).map(|(_, word)| word).skip(1);
+    let mut numbers = words(content).skip(1);
     let (Some(word), None) = (numbers.next(), numbers.next()) else {
         return Err((line, format!("one number must follow, the {axis}")));
     };
@@ -195,7 +194,7 @@ fn block(
 fn row(line: usize, content: &str) -> Result<Row, Problem> {
     let mut values = [0.0; 4];
     let mut count = 0;
-    for (_, word) in words(content) {
+    for word in words(content) {
         let value = number(word).map_err(|problem| (line, problem))?;
         if let Some(place) = values.get_mut(count) {
             *place = value;

@@ -2,7 +2,7 @@
 //! end before +-180 deg, where an `Airfoil` may not.
 
 use super::{
-    Airfoil, AirfoilError, Axis,
+    Airfoil, AirfoilError, Axis, Coefficient, Layers, Similarity,
     c81::{self, Numbers, Set},
     polar,
     records::Problem,
@@ -59,42 +59,43 @@ impl Airfoil {
     ///
     /// The first field that breaks the rules of the format. Angles may be any that increase.
     pub fn raw_c81(text: &str, file: &str) -> Result<(String, Vec<RawPolar>), AirfoilError> {
-        let sets =
-            c81::sets(text, |_, numbers| checked(numbers)).map_err(|(line, column, problem)| {
-                AirfoilError::MalformedField {
-                    file: file.to_owned(),
-                    line,
-                    column,
-                    problem,
-                }
-            })?;
+        let sets = c81::sets(text, columns).map_err(|(line, column, problem)| {
+            AirfoilError::MalformedField {
+                file: file.to_owned(),
+                line,
+                column,
+                problem,
+            }
+        })?;
         let name = sets.first().map_or("", |set| &set.name).to_owned();
         Ok((name, sets.iter().flat_map(polars).collect()))
     }
 }
 
-/// The numbers of a table whose angles and Mach numbers increase.
-fn checked(numbers: Numbers) -> Result<Numbers, Problem> {
-    let angles = numbers.rows.iter().map(|row| &row[0]);
-    for pair in [numbers.machs.iter().collect::<Vec<_>>(), angles.collect()] {
-        for pair in pair.windows(2) {
-            if pair[1].value <= pair[0].value {
-                let problem = format!(
-                    "{} must be above the number before ({})",
-                    pair[1].value, pair[0].value
-                );
-                return Err((pair[1].line, pair[1].column, problem));
-            }
+/// The numbers of a table, and the Mach numbers between which they are interpolated.
+type Columns = (Layers, Numbers);
+
+/// The columns of a table whose angles increase.
+fn columns(coefficient: Coefficient, numbers: Numbers) -> Result<Columns, Problem> {
+    let layers = c81::layers(coefficient, &numbers.machs)?;
+    for pair in numbers.rows.windows(2) {
+        let (before, angle) = (&pair[0][0], &pair[1][0]);
+        if angle.value <= before.value {
+            let problem = format!(
+                "{} must be above the number before ({})",
+                angle.value, before.value
+            );
+            return Err((angle.line, angle.column, problem));
         }
     }
-    Ok(numbers)
+    Ok((layers, numbers))
 }
 
 /// The polars of a set of tables, one for each Mach number.
-fn polars(set: &Set<Numbers>) -> Vec<RawPolar> {
+fn polars(set: &Set<Columns>) -> Vec<RawPolar> {
     let both = [&set.lift, &set.drag].into_iter();
     let mut machs: Vec<f64> = both
-        .flat_map(|table| table.machs.iter().map(|n| n.value))
+        .flat_map(|(_, table)| table.machs.iter().map(|n| n.value))
         .collect();
     machs.sort_by(f64::total_cmp);
     machs.dedup();
@@ -109,24 +110,15 @@ fn polars(set: &Set<Numbers>) -> Vec<RawPolar> {
         .collect()
 }
 
-/// The column of a table at a Mach number: linear between those of the table, and the nearest
-/// outside them, as `Layers` does.
-fn at_mach(table: &Numbers, mach: f64) -> Vec<(f64, f64)> {
-    let machs = &table.machs;
-    let after = machs
-        .partition_point(|n| n.value <= mach)
-        .min(machs.len() - 1);
-    let before = machs.partition_point(|n| n.value <= mach).saturating_sub(1);
-    let (low, high) = (machs[before].value, machs[after].value);
-    let weight = if low < mach && mach < high {
-        (mach - low) / (high - low)
-    } else {
-        0.0
+/// The column of a table at a Mach number, as `Layers` interpolates.
+fn at_mach((layers, table): &Columns, mach: f64) -> Vec<(f64, f64)> {
+    // C81 data do not depend on the Reynolds number.
+    let flow = Similarity {
+        reynolds: 0.0,
+        mach,
     };
-    let value = |row: &[super::records::Number]| {
-        let (low, high) = (row[before + 1].value, row[after + 1].value);
-        low + weight * (high - low)
-    };
+    let value =
+        |row: &[super::records::Number]| layers.mixed(flow, |layer, _| row[layer + 1].value);
     let rows = table.rows.iter();
     rows.map(|row| (row[0].value, value(row))).collect()
 }

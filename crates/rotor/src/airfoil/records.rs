@@ -112,7 +112,7 @@ impl<'a> Records<'a> {
             let (line, text) = self.line(layout.what)?;
             let may_be_label = !layout.has_angle && count == 0;
             let is_label = |word: &str| may_be_label && is_label(word);
-            for (column, word) in words(text).skip_while(|(_, word)| is_label(word)) {
+            for (column, word) in placed_words(text).skip_while(|(_, word)| is_label(word)) {
                 let Some(value) = number(word) else {
                     let problem = format!(
                         "`{}` is not a number; {} is expected, in columns of seven characters or between blanks",
@@ -209,9 +209,18 @@ pub fn number(text: &str) -> Option<f64> {
     value.ok().filter(|v: &f64| v.is_finite())
 }
 
+/// Whether a character stands between words.
+pub fn is_separator(character: char) -> bool {
+    character.is_whitespace() || character == ',' || character == ';'
+}
+
+/// The words between separators.
+pub fn words(content: &str) -> impl Iterator<Item = &str> {
+    content.split(is_separator).filter(|word| !word.is_empty())
+}
+
 /// The words between separators, with their columns from 1.
-pub fn words(content: &str) -> impl Iterator<Item = (usize, &str)> {
-    let is_separator = |c: char| c.is_whitespace() || c == ',' || c == ';';
+pub fn placed_words(content: &str) -> impl Iterator<Item = (usize, &str)> {
     let mut rest = content;
     let mut column = 1;
     std::iter::from_fn(move || {
