@@ -1,4 +1,5 @@
-//! Brings the points of a polar into order. Values stay as they are.
+//! Brings the points of a polar into order. Values stay as they are, but for rows at one angle that
+//! nearly agree, which give their mean.
 
 use super::{Point, Polar};
 use crate::Failure;

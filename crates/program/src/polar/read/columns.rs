@@ -32,12 +32,9 @@ pub struct Rows {
 
 /// Reads a table in columns.
 pub fn read(text: &str, file: &str) -> Result<Tables, Failure> {
-    let begin = text
-        .lines()
-        .enumerate()
-        .find_map(|(i, line)| Some((i, header(line)?)));
-    let has_header = begin.is_some();
-    let (first, header) = begin.map_or((0, without_names()), |(i, header)| (i + 1, header));
+    let found = header(text);
+    let has_header = found.is_some();
+    let (first, header) = found.unwrap_or((0, without_names()));
     if !has_header && let Some(line) = text.lines().find(|line| has_names(line)) {
         return Err(Failure(format!(
             "{file}: of the columns {:?} one must be the angle of attack (alpha or aoa), one the lift (cl) and one the drag (cd)",
@@ -102,8 +99,14 @@ fn is_name(field: &str) -> bool {
     field.starts_with(|c: char| c.is_alphabetic()) && field.len() <= 30
 }
 
+/// The columns by the first header line, and the index of the line below it.
+pub fn header(text: &str) -> Option<(usize, Header)> {
+    let mut lines = text.lines().enumerate();
+    lines.find_map(|(i, line)| Some((i + 1, columns(line)?)))
+}
+
 /// The columns of a header line.
-pub fn header(line: &str) -> Option<Header> {
+fn columns(line: &str) -> Option<Header> {
     let fields = fields(line.trim_start_matches(['#', '!', '%', ' ']));
     let names: Vec<String> = fields.iter().map(|field| name(field)).collect();
     let find = |is: fn(&str) -> bool| names.iter().position(|name| is(name));

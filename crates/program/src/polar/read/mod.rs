@@ -103,7 +103,7 @@ fn content(path: &Path, text: &str, angles: Option<Angles>) -> Result<Content, F
         // Rows of C81 would pass for columns of angle, lift and drag.
         None | Some(Foreign::Columns) if is_c81 => Some(Foreign::C81),
         // The numbers may be between quotes.
-        None if text.lines().any(|line| columns::header(line).is_some()) => Some(Foreign::Columns),
+        None if columns::header(text).is_some() => Some(Foreign::Columns),
         other => other,
     };
     let (kind, tables) = match recognised {

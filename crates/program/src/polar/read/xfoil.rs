@@ -10,11 +10,7 @@ use crate::{Failure, polar::Angles};
 
 /// Reads a polar.
 pub fn read(text: &str, file: &str) -> Result<Tables, Failure> {
-    let begin = text
-        .lines()
-        .enumerate()
-        .find_map(|(i, line)| Some((i, header(line)?)));
-    let Some((last, header)) = begin else {
+    let Some((first, header)) = header(text) else {
         return Err(Failure(format!(
             "{file}: the line with the names alpha, CL and CD is missing above the rows"
         )));
@@ -24,7 +20,7 @@ pub fn read(text: &str, file: &str) -> Result<Tables, Failure> {
         angles: Some(Angles::Deg),
         ..Tables::default()
     };
-    for line in text.lines().take(last) {
+    for line in text.lines().take(first - 1) {
         let lower = line.to_ascii_lowercase();
         if lower.contains("reynolds number") && line.contains('~') {
             return Err(Failure(format!(
@@ -46,7 +42,7 @@ pub fn read(text: &str, file: &str) -> Result<Tables, Failure> {
             .or_else(|| value(line, "mach ="))
             .or_else(|| value(line, "mach,"));
     }
-    let rows = header.rows(text.lines().skip(last + 1));
+    let rows = header.rows(text.lines().skip(first));
     if rows.without_numbers > 0 {
         tables.notes.push(left_out(rows.without_numbers));
     }
