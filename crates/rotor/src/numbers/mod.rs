@@ -17,7 +17,8 @@
 //! expensive branch is skipped if no lane needs it. Iterations end together for all lanes.
 //!
 //! Functions of lanes are `#[inline(always)]`: only then does the compiler use the wide registers
-//! of the caller, which [`run()`] chooses.
+//! of the caller, which [`run()`] chooses. In registers that every processor has the elementary
+//! functions are called instead: copies in each place are large.
 //!
 //! Outside of the elements numbers come one by one: a [`Scalar`].
 
