@@ -6,5 +6,6 @@
 
 pub mod block;
 pub mod description;
+pub mod fmi;
 pub mod fmi2;
 mod host;

@@ -55,11 +55,11 @@ fn check(platform: Platform, content: &[u8]) -> Result<(), String> {
             return Err("was built from another modelDescription.xml than this program; build both again with `cargo build`".into());
         }
         let exports = exports(&file)?;
-        for (function, _, _) in legality::TABLE {
-            if !exports.iter().any(|export| *export == function.name()) {
+        for function in legality::TABLE {
+            if !exports.iter().any(|export| *export == function.name) {
                 return Err(format!(
                     "does not export {}; name the shared library `helicopter_rotor` that cargo has built",
-                    function.name()
+                    function.name
                 ));
             }
         }
