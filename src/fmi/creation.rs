@@ -4,14 +4,17 @@ use super::{
     arguments::text,
     communication_time::Experiment,
     handle,
-    instance::{Instance, Message},
+    instance::{Importer, Instance, Message},
     legality::{Function, INSTANTIATED, Interface},
     logger::{Callback, Category, Logger, Wanted, printable},
     resource_location::resources,
     types::{Component, Environment, Text},
 };
 use crate::{
-    block::{PerVariable, RotorBlock, variables::MODEL_IDENTIFIER},
+    block::{
+        PerVariable, RotorBlock,
+        variables::{INTEGERS, MODEL_IDENTIFIER, REALS},
+    },
     host::{
         float_environment::in_default_environment,
         memory::{NO_MEMORY, Watch},
@@ -36,6 +39,7 @@ pub struct Request<'a> {
     pub wanted: Wanted,
     /// The interface that it asks for, or what is wrong with its request.
     pub interface: Result<Interface, String>,
+    pub importer: Importer,
 }
 
 /// Makes an instance; null if that is refused, which is logged whatever messages are wanted.
@@ -58,7 +62,8 @@ pub unsafe fn create(request: Request) -> Component {
         // SAFETY: passed on from the caller.
         let token = unsafe { text(request.token, request.token_name) };
         let version = request.function.version;
-        let identified = check_token(token, version.token()).and(request.interface);
+        let identified =
+            check_token(token, version.token_name(), version.token()).and(request.interface);
         let interface = match identified {
             Ok(interface) => interface,
             Err(sentence) => return Err((logger, sentence)),
@@ -74,6 +79,9 @@ pub unsafe fn create(request: Request) -> Component {
             logger,
             strings: PerVariable::new(Default::default()),
             experiment: Experiment::default(),
+            importer: request.importer,
+            references: Vec::with_capacity(REALS.len()),
+            integers: Vec::with_capacity(INTEGERS.len()),
         };
         Ok(instance)
     };
@@ -108,14 +116,14 @@ fn cut(name: &str) -> &str {
 }
 
 /// An error if the importer asks for another FMU.
-fn check_token(given: Result<&str, Message>, ours: &str) -> Result<(), String> {
+fn check_token(given: Result<&str, Message>, name: &str, ours: &str) -> Result<(), String> {
     let given = given.map_err(|message| match message {
         Message::Error(text) | Message::Warning(text) => text,
     })?;
     if given.trim() != ours {
         let given: String = given.chars().take(80).collect();
         return Err(format!(
-            "the GUID {given:?} is not the binary's, {ours}; modelDescription.xml and binary must come from the same .fmu"
+            "the {name} {given:?} is not the binary's, {ours}; modelDescription.xml and binary must come from the same .fmu"
         ));
     }
     Ok(())

@@ -7,7 +7,7 @@ use super::{
     communication_time::Experiment,
     handle::{self, Marked},
     instance::{Instance, Message, Outcome, call, no_memory, refuse},
-    legality::{Function, Interface, States, Version},
+    legality::{Function, Interface, STEP_MODE, States, Version},
     types::{Component, StatePointer, Status},
 };
 use crate::{block::Snapshot, host::memory::Watch};
@@ -17,6 +17,9 @@ use std::ptr;
 /// The state of an instance; the importer holds a handle of one.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct FmuState {
+    /// Not among the bytes of a state: their head has the token of the version.
+    #[serde(skip)]
+    pub version: Version,
     pub interface: Interface,
     pub state: States,
     pub experiment: Experiment,
@@ -26,6 +29,7 @@ pub struct FmuState {
 impl FmuState {
     fn of(instance: &Instance) -> Self {
         Self {
+            version: instance.version,
             interface: instance.interface,
             state: instance.state,
             experiment: instance.experiment,
@@ -35,6 +39,12 @@ impl FmuState {
 
     /// Makes an instance continue from this state. If that fails, the instance has not changed.
     fn apply(&self, instance: &mut Instance) -> Outcome {
+        if self.version != instance.version {
+            return refuse(format!(
+                "the state belongs to an instance of {}; set it on one of that version",
+                self.version.name()
+            ));
+        }
         if self.interface != instance.interface {
             return refuse(
                 "the state belongs to the other interface (Co-Simulation or Model Exchange); set it on an instance of that interface"
@@ -44,6 +54,9 @@ impl FmuState {
         instance.block.restore(&self.block)?;
         instance.state = self.state;
         instance.experiment = self.experiment;
+        if self.state == STEP_MODE && instance.importer.has_event_mode {
+            instance.block.hold_flow_state();
+        }
         Ok(())
     }
 }
@@ -240,11 +253,11 @@ pub unsafe fn deserialize(
     size: usize,
     state: *mut StatePointer,
 ) -> Status {
-    let body = |_: &mut Instance| {
+    let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
         let bytes = unsafe { elements(serialized, size, "serializedState")? };
         // SAFETY: passed on from the caller.
-        unsafe { store(state, || Ok(FmuState::from_bytes(bytes)?)) }
+        unsafe { store(state, || Ok(FmuState::from_bytes(bytes, instance.version)?)) }
     };
     // SAFETY: passed on from the caller.
     unsafe { call(component, function, body) }

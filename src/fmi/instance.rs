@@ -4,15 +4,17 @@ use super::{
     communication_time::Experiment,
     handle::{self, Marked},
     legality::{
-        EVENT_MODE, Function, INITIALIZATION_MODE, Interface, STEP_COMPLETE, States, Version,
+        EVENT_MODE, Function, INITIALIZATION_MODE, INSTANTIATED, Interface, STEP_COMPLETE,
+        STEP_MODE, States, Version,
     },
     logger::{Category, Logger},
-    types::{Component, Status},
+    types::{Component, Status, ValueReference},
 };
 use crate::block::{
     BlockError, Note, PerVariable, RotorBlock,
     variables::{STRINGS, StringRef},
 };
+use crate::fmi3::types::fmi3IntermediateUpdateCallback;
 use crate::host::{float_environment::in_default_environment, memory::NO_MEMORY};
 use std::{
     any::Any,
@@ -29,6 +31,21 @@ pub struct Instance {
     /// The strings that were returned; valid until the next call.
     pub strings: PerVariable<StringRef, CString, { STRINGS.len() }>,
     pub experiment: Experiment,
+    pub importer: Importer,
+    /// Memory for the elements of variables of FMI 3.0, so that getting and setting allocates none.
+    pub references: Vec<ValueReference>,
+    /// And for values of another width than the block's.
+    pub integers: Vec<i32>,
+}
+
+/// What an importer of FMI 3.0 can do in Co-Simulation.
+#[derive(Default)]
+pub struct Importer {
+    pub has_event_mode: bool,
+    pub allows_early_return: bool,
+    pub intermediate_update: Option<fmi3IntermediateUpdateCallback>,
+    /// The variables that it accesses during intermediate updates.
+    pub required: Vec<ValueReference>,
 }
 
 impl Marked for Instance {
@@ -61,21 +78,27 @@ pub fn refuse(text: String) -> Outcome {
 }
 
 impl Instance {
-    /// In Initialization Mode and in Model Exchange, outputs follow the inputs that were set; in
-    /// Co-Simulation they are those of the last step.
+    /// In Initialization Mode, in Event Mode and in Model Exchange, outputs follow the inputs that
+    /// were set; in steps of Co-Simulation they are those of the last one. Before the
+    /// initialisation, FMI 3.0 reads what the variables are then.
     pub fn refresh(&mut self) -> Result<(), BlockError> {
-        if self.state == INITIALIZATION_MODE || self.interface == Interface::ModelExchange {
-            self.block.update()
-        } else {
-            Ok(())
+        let is_current = match self.state {
+            INSTANTIATED => false,
+            INITIALIZATION_MODE | EVENT_MODE => true,
+            _ => self.interface == Interface::ModelExchange,
+        };
+        if is_current {
+            self.block.update()?;
         }
+        Ok(())
     }
 
     /// The state after the initialisation.
     pub fn initialized(&self) -> States {
-        match self.interface {
-            Interface::CoSimulation => STEP_COMPLETE,
-            Interface::ModelExchange => EVENT_MODE,
+        match (self.interface, self.version) {
+            (Interface::CoSimulation, Version::Two) => STEP_COMPLETE,
+            (Interface::CoSimulation, Version::Three) if !self.importer.has_event_mode => STEP_MODE,
+            _ => EVENT_MODE,
         }
     }
 }

@@ -4,12 +4,13 @@
 //! This FMU never enters the states "error" and "fatal", because an error does not change its
 //! state.
 
-use crate::block::variables::GUID;
+use crate::block::variables::{GUID, INSTANTIATION_TOKEN};
 use serde::{Deserialize, Serialize};
 
 /// The version of FMI.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Version {
+    #[default]
     Two,
     Three,
 }
@@ -22,11 +23,19 @@ impl Version {
         }
     }
 
-    /// The GUID in the modelDescription.xml of this version.
+    /// What its modelDescription.xml calls the GUID or token.
+    pub fn token_name(self) -> &'static str {
+        match self {
+            Self::Two => "GUID",
+            Self::Three => "instantiationToken",
+        }
+    }
+
+    /// The GUID or token in the modelDescription.xml of this version.
     pub fn token(self) -> &'static str {
         match self {
             Self::Two => GUID,
-            Self::Three => GUID,
+            Self::Three => INSTANTIATION_TOKEN,
         }
     }
 }

@@ -38,6 +38,7 @@ const MAX_MESSAGE: usize = 500;
 #[derive(Clone, Copy)]
 pub enum Callback {
     Two(unsafe extern "C" fn(Environment, Text, Status, Text, Text, ...)),
+    Three(unsafe extern "C" fn(Environment, Status, Text, Text)),
 }
 
 /// The importer's logger as copied at instantiation.
@@ -61,15 +62,26 @@ impl Logger {
         let status = category.status();
         let category = printable(LOG_CATEGORIES[category as usize]);
         let message = limited(message.trim_end());
-        // SAFETY: the importer's function, with the arguments that the standard demands. The
-        // strings live until it returns.
         match self.callback {
+            // SAFETY: the importer's function, with the arguments that the standard demands. The
+            // strings live until it returns.
             Some(Callback::Two(logger)) => unsafe {
                 let (environment, name) = (self.environment, self.instance_name.as_ptr());
                 let message = printable(&message.replace('%', "%%"));
                 logger(
                     environment,
                     name,
+                    status,
+                    category.as_ptr(),
+                    message.as_ptr(),
+                );
+            },
+            // SAFETY: as above.
+            Some(Callback::Three(log_message)) => unsafe {
+                // Elsewhere it would stand for a variable.
+                let message = printable(&message.replace('#', "##"));
+                log_message(
+                    self.environment,
                     status,
                     category.as_ptr(),
                     message.as_ptr(),

@@ -5,6 +5,7 @@
 use super::{legality::interface, logger::wanted, types::*};
 use crate::fmi::{
     creation::{self, Request},
+    instance::Importer,
     legality::Function,
     logger::Callback,
 };
@@ -38,6 +39,7 @@ pub unsafe extern "C" fn fmi2Instantiate(
                 "fmuType = {fmuType} is unknown; pass fmi2ModelExchange (0) or fmi2CoSimulation (1)"
             )
         }),
+        importer: Importer::default(),
     };
     // SAFETY: passed on from the caller.
     unsafe { creation::create(request) }

@@ -1,0 +1,14 @@
+//! The C interface of FMI 3.0 as an importer sees it, and that it answers as that of FMI 2.0.
+
+mod co_simulation;
+mod counts;
+mod creation;
+mod dependencies;
+mod derivatives;
+mod description;
+mod events;
+mod intermediate_update;
+mod legality;
+mod logging;
+mod same_bits;
+mod states;
