@@ -61,17 +61,14 @@ fn model_description() -> PathBuf {
 /// Writes the .fmu of FMI 2.0 with these libraries in it. After an error there is no incomplete
 /// `file`.
 pub fn write(file: &Path, contents: &Contents) -> Result<(), Failure> {
-    drafted(file, contents, Version::Two)?.publish()
+    write_version(file, contents, Version::Two)
 }
 
-/// Writes the .fmu of FMI 2.0, and that of FMI 3.0 beside it. Returns the path of the latter. After
-/// an error there are no incomplete files.
+/// Writes the .fmu of FMI 2.0, and then that of FMI 3.0 beside it. Returns the path of the latter.
 pub fn write_both(file: &Path, contents: &Contents) -> Result<PathBuf, Failure> {
     let other = beside(file);
-    let draft = drafted(file, contents, Version::Two)?;
-    let other_draft = drafted(&other, contents, Version::Three)?;
-    draft.publish()?;
-    other_draft.publish()?;
+    write_version(file, contents, Version::Two)?;
+    write_version(&other, contents, Version::Three)?;
     Ok(other)
 }
 
@@ -86,12 +83,12 @@ pub fn beside(file: &Path) -> PathBuf {
     file.with_file_name(name)
 }
 
-fn drafted(file: &Path, contents: &Contents, version: Version) -> Result<Draft, Failure> {
+fn write_version(file: &Path, contents: &Contents, version: Version) -> Result<(), Failure> {
     let draft = Draft::new(place_of_file(file)?)?;
     let out =
         File::create(draft.path()).map_err(failed(format!("cannot write {}", file.display())))?;
     archive(out, contents, version)?;
-    Ok(draft)
+    draft.publish()
 }
 
 fn archive(out: impl Write + Seek, contents: &Contents, version: Version) -> Result<(), Failure> {
