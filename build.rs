@@ -1,23 +1,28 @@
-//! Makes modelDescription.xml, the Rust constants of the variables and the documentation's tables
-//! from `modelDescription/*.toml`, so that the three always agree.
+//! Makes modelDescription.xml of FMI 2.0 and of FMI 3.0, the Rust constants of the variables and the
+//! documentation's tables from `modelDescription/*.toml`, so that they always agree.
 
 #[path = "build/table.rs"]
 mod table;
 
+#[path = "build/arrays.rs"]
+mod arrays;
+#[path = "build/dependencies.rs"]
+mod dependencies;
 #[path = "build/html.rs"]
 mod html;
 #[path = "build/rust.rs"]
 mod rust;
-#[path = "build/xml.rs"]
+#[path = "build/xml/mod.rs"]
 mod xml;
 
 use std::{env, error::Error, fs, path::Path};
 
 const VARIABLES: &str = "modelDescription/variables.toml";
 const UNITS: &str = "modelDescription/units.toml";
+const TERMINALS: &str = "modelDescription/terminals.toml";
 
 fn main() -> Result<(), Box<dyn Error>> {
-    for input in ["build.rs", "build", VARIABLES, UNITS] {
+    for input in ["build.rs", "build", VARIABLES, UNITS, TERMINALS] {
         println!("cargo::rerun-if-changed={input}");
     }
     let out = env::var("OUT_DIR")?;
@@ -25,12 +30,19 @@ fn main() -> Result<(), Box<dyn Error>> {
     let version = env::var("CARGO_PKG_VERSION")?;
 
     let table = table::Table::read(VARIABLES, UNITS)?;
-    let guid = xml::fingerprint(&table, &version)?;
-    fs::write(
-        out.join("modelDescription.xml"),
-        xml::model_description(&table, &version, &guid)?,
-    )?;
-    fs::write(out.join("variables.rs"), rust::constants(&table, &guid)?)?;
+    let grouped = arrays::grouped(&table).map_err(|e| format!("{VARIABLES}: {e}"))?;
+    let of_fmi2 = |guid: &str| xml::fmi2::model_description(&table, &version, guid);
+    let of_fmi3 = |token: &str| xml::fmi3::model_description(&table, &grouped, &version, token);
+    let guid = xml::fingerprint(of_fmi2("")?);
+    let token = xml::fingerprint(of_fmi3("")?);
+    fs::write(out.join("modelDescription.xml"), of_fmi2(&guid)?)?;
+    fs::write(out.join("modelDescription-fmi3.xml"), of_fmi3(&token)?)?;
+    let terminals = xml::terminals::Terminals::read(TERMINALS)?;
+    for (file, has_arrays) in [("terminals.xml", false), ("terminals-fmi3.xml", true)] {
+        fs::write(out.join(file), terminals.description(&grouped, has_arrays)?)?;
+    }
+    let constants = rust::constants(&table, &grouped, &guid, &token)?;
+    fs::write(out.join("variables.rs"), constants)?;
     fs::write(out.join("variables.html"), html::tables(&table))?;
     Ok(())
 }

@@ -1,25 +1,41 @@
 //! The Rust constants that the code uses: one static array of variables for each FMI base type, the
 //! value references by name, and a Rust enumeration for each enumeration of the table.
 
-use crate::table::{Base, Enumeration, Table, Variable};
-use std::fmt::{self, Write};
+use crate::{
+    arrays::{BLOCK, Grouped, TIME},
+    dependencies::{Dependency, Phase, of_grouped},
+    table::{Base, Enumeration, Table, Variable},
+};
+use std::{
+    collections::BTreeMap,
+    fmt::{self, Write},
+};
 
-pub fn constants(table: &Table, guid: &str) -> Result<String, fmt::Error> {
+pub fn constants(
+    table: &Table,
+    grouped: &[Grouped],
+    guid: &str,
+    token: &str,
+) -> Result<String, fmt::Error> {
     let mut text = String::new();
     let out = &mut text;
-    identification(out, table, guid)?;
+    identification(out, table, guid, token)?;
     variables(out, table)?;
     continuous_states(out, table)?;
+    arrays(out, grouped)?;
+    dependencies(out, table, grouped)?;
     for enumeration in &table.enumerations {
         rust_enumeration(out, enumeration)?;
     }
     Ok(text)
 }
 
-/// The GUID, the model identifier and the log categories.
-fn identification(out: &mut String, table: &Table, guid: &str) -> fmt::Result {
-    writeln!(out, "/// Fingerprint of modelDescription.xml.")?;
+/// The GUID and the token, the model identifier and the log categories.
+fn identification(out: &mut String, table: &Table, guid: &str, token: &str) -> fmt::Result {
+    writeln!(out, "/// Fingerprint of modelDescription.xml of FMI 2.0.")?;
     writeln!(out, "pub const GUID: &str = {guid:?};")?;
+    writeln!(out, "/// Fingerprint of modelDescription.xml of FMI 3.0.")?;
+    writeln!(out, "pub const INSTANTIATION_TOKEN: &str = {token:?};")?;
     writeln!(out, "/// `modelIdentifier` of modelDescription.xml.")?;
     writeln!(
         out,
@@ -128,6 +144,78 @@ fn continuous_states(out: &mut String, table: &Table) -> fmt::Result {
         )?;
     }
     writeln!(out, "];")
+}
+
+/// The value references of FMI 3.0: their blocks, and the arrays.
+fn arrays(out: &mut String, grouped: &[Grouped]) -> fmt::Result {
+    writeln!(out, "/// Value references of FMI 3.0 for each base type.")?;
+    writeln!(out, "pub const BLOCK_OF_REFERENCES: u32 = {BLOCK};")?;
+    writeln!(out, "/// The value reference of `time` in FMI 3.0.")?;
+    writeln!(out, "pub const TIME_REFERENCE: u32 = {TIME};")?;
+    let mut arrays: Vec<&Grouped> = grouped.iter().filter(|v| v.is_array).collect();
+    arrays.sort_by_key(|array| array.reference);
+    writeln!(
+        out,
+        "/// The arrays, by the value references of their first elements."
+    )?;
+    writeln!(out, "pub static ARRAYS: [Array; {}] = [", arrays.len())?;
+    for array in arrays {
+        writeln!(
+            out,
+            "    Array {{ name: {:?}, first: {}, count: {} }},",
+            array.name,
+            array.reference,
+            array.elements.len()
+        )?;
+    }
+    writeln!(out, "];")
+}
+
+/// The dependencies of the computed variables of FMI 3.0. Equal lists are written once.
+fn dependencies(out: &mut String, table: &Table, grouped: &[Grouped]) -> fmt::Result {
+    let mut lists: BTreeMap<Vec<Dependency>, usize> = BTreeMap::new();
+    let mut rows = String::new();
+    let is_computed =
+        |v: &&Grouped| ["output", "local"].contains(&v.elements[0].causality.as_str());
+    let computed = grouped.iter().filter(is_computed);
+    for v in computed.clone() {
+        let [initial, running] = [Phase::Initial, Phase::Running].map(|phase| {
+            let number = lists.len();
+            *lists
+                .entry(of_grouped(table, grouped, v, phase))
+                .or_insert(number)
+        });
+        writeln!(
+            rows,
+            "    Dependencies {{ of: {}, initial: &DEPENDENCIES_{initial}, running: &DEPENDENCIES_{running} }},",
+            v.reference
+        )?;
+    }
+    for (list, number) in lists {
+        writeln!(
+            out,
+            "static DEPENDENCIES_{number}: [Dependency; {}] = [",
+            list.len()
+        )?;
+        for Dependency {
+            element,
+            on,
+            element_on,
+        } in list
+        {
+            writeln!(
+                out,
+                "    Dependency {{ element: {element}, on: {on}, element_on: {element_on} }},"
+            )?;
+        }
+        writeln!(out, "];")?;
+    }
+    writeln!(out, "/// The dependencies of the computed variables.")?;
+    writeln!(
+        out,
+        "pub static DEPENDENCIES: [Dependencies; {}] = [\n{rows}];",
+        computed.count()
+    )
 }
 
 fn rust_enumeration(out: &mut String, enumeration: &Enumeration) -> fmt::Result {

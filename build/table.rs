@@ -10,6 +10,9 @@ pub struct Table {
     pub default_experiment: Experiment,
     #[serde(rename = "logCategory")]
     pub log_categories: Vec<LogCategory>,
+    /// The arrays of FMI 3.0 whose elements have rows of their own.
+    #[serde(rename = "array")]
+    pub arrays: Vec<Array>,
     #[serde(rename = "enumeration")]
     pub enumerations: Vec<Enumeration>,
     #[serde(rename = "variable")]
@@ -23,6 +26,8 @@ pub struct Table {
 pub struct Model {
     pub model_name: String,
     pub description: String,
+    pub author: String,
+    pub copyright: String,
     pub license: String,
 }
 
@@ -39,6 +44,13 @@ pub struct Experiment {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LogCategory {
+    pub name: String,
+    pub description: String,
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Array {
     pub name: String,
     pub description: String,
 }

@@ -23,8 +23,8 @@ use std::{
     ptr,
 };
 
-const OK: fmi2Status = fmi2Status::fmi2OK;
-const ERROR: fmi2Status = fmi2Status::fmi2Error;
+const OK: fmi2Status = fmi2Status::Ok;
+const ERROR: fmi2Status = fmi2Status::Error;
 
 /// A small rotor before its initialisation.
 fn instance(kind: fmi2Enumeration) -> fmi2Component {

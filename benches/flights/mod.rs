@@ -67,7 +67,7 @@ fn reference<T>(table: &[Variable<T>], name: &str) -> fmi2ValueReference {
 }
 
 fn ok(status: fmi2Status) {
-    assert!(status == fmi2Status::fmi2OK, "{status:?}");
+    assert!(status == fmi2Status::Ok, "{status:?}");
 }
 
 impl Flight {

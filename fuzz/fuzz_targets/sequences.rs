@@ -24,7 +24,7 @@ use std::{
 const MAX_CALLS: usize = 60;
 const MAX_COSTLY: usize = 12;
 
-const OK: fmi2Status = fmi2Status::fmi2OK;
+const OK: fmi2Status = fmi2Status::Ok;
 
 /// The address that is passed for an array or a result.
 #[derive(Debug, Arbitrary, Clone, Copy)]

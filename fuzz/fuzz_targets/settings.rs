@@ -25,7 +25,7 @@ fuzz_target!(|text: &str| {
     let reference = string::SETTINGS.number();
     // SAFETY: the instance lives, and the pointers live during the calls.
     unsafe {
-        if fmi2SetString(instance.0, &reference, 1, &text.as_ptr()) != fmi2Status::fmi2OK {
+        if fmi2SetString(instance.0, &reference, 1, &text.as_ptr()) != fmi2Status::Ok {
             promise(instance.serialized() == before, || {
                 "refused settings have changed something".into()
             });

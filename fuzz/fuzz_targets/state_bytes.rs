@@ -25,7 +25,7 @@ use std::{ptr, sync::OnceLock};
 /// Bytes of the head before the length: magic, version and GUID.
 const BEFORE_LENGTH: usize = 8 + 4 + 38;
 
-const OK: fmi2Status = fmi2Status::fmi2OK;
+const OK: fmi2Status = fmi2Status::Ok;
 
 /// A whole state with this content.
 fn whole(content: &[u8]) -> Vec<u8> {

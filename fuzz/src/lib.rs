@@ -96,7 +96,7 @@ impl Instance {
     pub fn set_integer(&self, reference: IntegerRef, value: c_int) {
         // SAFETY: the pointers live during the call.
         let status = unsafe { fmi2SetInteger(self.0, &reference.number(), 1, &value) };
-        promise(status == fmi2Status::fmi2OK, || "not set".to_owned());
+        promise(status == fmi2Status::Ok, || "not set".to_owned());
     }
 
     /// All Real variables. Where that is OK, they are finite.
@@ -106,7 +106,7 @@ impl Instance {
         let (vr, value) = (references.as_ptr(), values.as_mut_ptr());
         // SAFETY: the pointers are valid for the count.
         let status = unsafe { fmi2GetReal(self.0, vr, values.len(), value) };
-        (status == fmi2Status::fmi2OK).then(|| {
+        (status == fmi2Status::Ok).then(|| {
             finite(&values);
             values
         })
@@ -122,7 +122,7 @@ impl Instance {
             let mut bytes = vec![0_u8; size];
             let written = fmi2SerializeFMUstate(self.0, state, bytes.as_mut_ptr().cast(), size);
             let freed = fmi2FreeFMUstate(self.0, &mut state);
-            let is_ok = [taken, sized, written, freed] == [fmi2Status::fmi2OK; 4];
+            let is_ok = [taken, sized, written, freed] == [fmi2Status::Ok; 4];
             promise(is_ok, || "no state".into());
             bytes
         }

@@ -187,7 +187,7 @@ impl RotorBlock {
             rotor::inflow::FlowState::WindmillBrake => FlowState::WindmillBrake,
         };
         self.flow_state = flow_state as i32;
-        if self.stage != Stage::Integrating {
+        if self.stage != Stage::Integrating && !self.holds_flow_state {
             self.values.integers[integer::FLOW_STATE] = self.flow_state;
         }
         self.memory = memory;

@@ -395,7 +395,7 @@ impl Integration<'_> {
     }
 
     /// The time to the next grid point, s.
-    fn cell(&self, point: &OperatingPoint, speed: f64) -> f64 {
+    pub fn cell(&self, point: &OperatingPoint, speed: f64) -> f64 {
         // The quotient is infinite for a stopped rotor.
         let cell = (self.azimuth_step / speed.abs()).min(LONGEST_CELL);
         match point.drive {

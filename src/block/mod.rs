@@ -7,7 +7,7 @@
 //! * `setup`, `airfoils`, `flight_condition`, `ramp`: from values to a rotor and its operating
 //!   point
 //! * `computation`, `outputs`: the rotor's response, written to the outputs
-//! * `co_simulation`, `integrate`, `known_rates`: steps that the block integrates
+//! * `co_simulation`, `parted_step`, `integrate`, `known_rates`: steps that the block integrates
 //! * `model_exchange`, `state_vector`: states and derivatives for an importer that integrates
 //! * `derivative`: directional derivatives
 //! * `snapshot`: the block's state, saved and restored
@@ -30,6 +30,7 @@ mod location;
 mod model_exchange;
 mod outputs;
 mod outside_data;
+mod parted_step;
 mod plausibility;
 mod ramp;
 mod references;
@@ -44,6 +45,7 @@ pub mod variables;
 
 pub use derivative::DerivativeError;
 pub use location::path_from_uri;
+pub use parted_step::{Inputs, Moment};
 pub use references::{Booleans, Integers, Names, PerVariable, Reals, Reference, Strings};
 pub use settings::{SetStringsError, SettingsError};
 pub use setup::SetupError;
@@ -130,6 +132,8 @@ pub struct RotorBlock {
     fresh: Fresh,
     /// The flow state as last computed. The variable changes at events only.
     flow_state: i32,
+    /// Whether the variable keeps its value in steps, too: until the importer handles the event.
+    holds_flow_state: bool,
     /// Sentences for the log since the last call of `take_notes`.
     notes: Vec<Note>,
     limited_inputs: LimitedInputs,
@@ -156,6 +160,7 @@ impl RotorBlock {
             has_start: true,
             ramp: Ramp::default(),
             fresh: Fresh::Nothing,
+            holds_flow_state: false,
             notes: Vec::new(),
             limited_inputs: LimitedInputs::default(),
             outside_data: OutsideDataNotice::default(),

@@ -22,13 +22,13 @@ impl RotorBlock {
     /// Whether the value of a discrete variable is out of date, so that an event is due.
     pub fn has_event(&mut self) -> Result<bool, BlockError> {
         self.update()?;
-        Ok(self.values.integers[integer::FLOW_STATE] != self.flow_state)
+        Ok(self.is_event_pending())
     }
 
-    /// Ends an integration by the importer: discrete variables get their new values, and tunable
-    /// parameters may be set.
+    /// Begins an event: discrete variables get their new values, and tunable parameters may be set.
     pub fn begin_event(&mut self) {
         self.stage = Stage::Running;
+        self.holds_flow_state = false;
         if self.fresh == Fresh::All {
             self.values.integers[integer::FLOW_STATE] = self.flow_state;
         }

@@ -46,6 +46,34 @@ pub struct ContinuousState {
     pub nominal: f64,
 }
 
+/// Real variables that are the elements of one array in FMI 3.0, one after the other.
+#[derive(Debug, Clone, Copy)]
+pub struct Array {
+    pub name: &'static str,
+    /// The value reference of the first element.
+    pub first: u32,
+    pub count: u32,
+}
+
+/// The dependencies of a variable that is computed, by the value references of FMI 3.0.
+#[derive(Debug, Clone, Copy)]
+pub struct Dependencies {
+    pub of: u32,
+    /// Until the initialisation ends.
+    pub initial: &'static [Dependency],
+    /// Afterwards.
+    pub running: &'static [Dependency],
+}
+
+/// One element of a variable, or all elements, depends on one element of another or on all. The
+/// elements count from 1; 0 means all elements of an array.
+#[derive(Debug, Clone, Copy)]
+pub struct Dependency {
+    pub element: u16,
+    pub on: u32,
+    pub element_on: u16,
+}
+
 impl Causality {
     /// Whether the block computes the variable.
     pub fn is_computed(self) -> bool {

@@ -2,11 +2,11 @@
 
 #![allow(non_snake_case)]
 
-use super::{
+use super::types::*;
+use crate::fmi::{
     arguments::{elements, fill, room, room_for_one},
     instance::{Instance, Message, Outcome, call, refuse},
     legality::Function,
-    types::*,
 };
 
 /// # Safety
@@ -116,7 +116,7 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
 /// As `call`; `value` is null or may be written.
 unsafe fn status<T>(
     c: fmi2Component,
-    function: Function,
+    function: &'static Function,
     value: *mut T,
     answer: impl FnOnce(&Instance) -> Option<T>,
 ) -> fmi2Status {
@@ -142,7 +142,7 @@ pub unsafe extern "C" fn fmi2GetStatus(
     s: fmi2Enumeration,
     value: *mut fmi2Status,
 ) -> fmi2Status {
-    let answer = |_: &Instance| (s == FMI2_DO_STEP_STATUS).then_some(fmi2Status::fmi2OK);
+    let answer = |_: &Instance| (s == FMI2_DO_STEP_STATUS).then_some(fmi2Status::Ok);
     // SAFETY: passed on from the caller.
     unsafe { status(c, Function::fmi2GetStatus, value, answer) }
 }

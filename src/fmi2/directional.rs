@@ -2,11 +2,11 @@
 
 #![allow(non_snake_case)]
 
-use super::{
+use super::types::*;
+use crate::fmi::{
     arguments::{elements, fill, room},
     instance::{Instance, call},
     legality::Function,
-    types::*,
 };
 
 /// # Safety

@@ -3,11 +3,11 @@
 
 #![allow(non_snake_case)]
 
-use super::{
-    communication_time::Experiment,
-    instance::{Instance, call, refuse},
-    legality::{Function, INITIALIZATION_MODE, INSTANTIATED, TERMINATED},
-    types::*,
+use super::types::*;
+use crate::fmi::{
+    Experiment,
+    instance::{Instance, call},
+    legality::{Function, INITIALIZATION_MODE, TERMINATED},
 };
 
 /// # Safety
@@ -22,24 +22,8 @@ pub unsafe extern "C" fn fmi2SetupExperiment(
     stopTime: fmi2Real,
 ) -> fmi2Status {
     let body = |instance: &mut Instance| {
-        if !startTime.is_finite() {
-            return refuse(format!(
-                "startTime = {startTime} is not finite; pass a finite time"
-            ));
-        }
         let stop_time = (stopTimeDefined != FMI2_FALSE).then_some(stopTime);
-        if let Some(stop) = stop_time
-            && (stop.is_nan() || stop < startTime)
-        {
-            return refuse(format!(
-                "stopTime = {stop} s is before startTime = {startTime} s; pass a later stopTime or none"
-            ));
-        }
-        instance.experiment = Experiment {
-            start_time: startTime,
-            time: startTime,
-            stop_time,
-        };
+        instance.experiment = Experiment::new(startTime, stop_time)?;
         Ok(())
     };
     // SAFETY: passed on from the caller.
@@ -62,13 +46,8 @@ pub unsafe extern "C" fn fmi2EnterInitializationMode(c: fmi2Component) -> fmi2St
 /// As in the standard: `c` from fmi2Instantiate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2ExitInitializationMode(c: fmi2Component) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        instance.block.start()?;
-        instance.state = instance.initialized();
-        Ok(())
-    };
     // SAFETY: passed on from the caller.
-    unsafe { call(c, Function::fmi2ExitInitializationMode, body) }
+    unsafe { call(c, Function::fmi2ExitInitializationMode, Instance::start) }
 }
 
 /// # Safety
@@ -87,12 +66,6 @@ pub unsafe extern "C" fn fmi2Terminate(c: fmi2Component) -> fmi2Status {
 /// As in the standard: `c` from fmi2Instantiate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2Reset(c: fmi2Component) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        instance.block.reset();
-        instance.experiment = Experiment::default();
-        instance.state = INSTANTIATED;
-        Ok(())
-    };
     // SAFETY: passed on from the caller.
-    unsafe { call(c, Function::fmi2Reset, body) }
+    unsafe { call(c, Function::fmi2Reset, Instance::reset) }
 }

@@ -1,17 +1,14 @@
 //! The functions of Model Exchange: fmi2Functions.h, "Functions for FMI2 for Model Exchange".
-//!
-//! The importer integrates. No equation contains time itself, and there are no event indicators: a
-//! change of the one discrete output, `flowState`, asks for its event after a completed step.
 
 #![allow(non_snake_case)]
 
-use super::{
-    arguments::{elements, fill, room, room_for_one},
-    instance::{Instance, Message, Outcome, call, refuse},
-    legality::{CONTINUOUS_TIME_MODE, EVENT_MODE, Function},
-    types::*,
+use super::types::*;
+use crate::fmi::{
+    arguments::room_for_one,
+    instance::{Instance, call},
+    legality::Function,
+    model_exchange::{Vector, check_count, set_states, state_vector},
 };
-use crate::block::variables::STATES;
 
 // ------------------------------------------------------------------ modes
 
@@ -19,13 +16,8 @@ use crate::block::variables::STATES;
 /// As in the standard: `c` from fmi2Instantiate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterEventMode(c: fmi2Component) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        instance.block.begin_event();
-        instance.state = EVENT_MODE;
-        Ok(())
-    };
     // SAFETY: passed on from the caller.
-    unsafe { call(c, Function::fmi2EnterEventMode, body) }
+    unsafe { call(c, Function::fmi2EnterEventMode, Instance::enter_event_mode) }
 }
 
 /// # Safety
@@ -58,11 +50,7 @@ pub unsafe extern "C" fn fmi2NewDiscreteStates(
 /// As in the standard: `c` from fmi2Instantiate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2EnterContinuousTimeMode(c: fmi2Component) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        instance.block.begin_integration()?;
-        instance.state = CONTINUOUS_TIME_MODE;
-        Ok(())
-    };
+    let body = Instance::enter_continuous_time_mode;
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2EnterContinuousTimeMode, body) }
 }
@@ -98,25 +86,9 @@ pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
 /// As in the standard: `c` from fmi2Instantiate.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2SetTime(c: fmi2Component, time: fmi2Real) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        if !time.is_finite() {
-            return refuse(format!("time = {time} is not finite; pass a finite time"));
-        }
-        instance.experiment.time = time;
-        Ok(())
-    };
+    let body = |instance: &mut Instance| instance.set_time(time);
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2SetTime, body) }
-}
-
-/// An error if the importer's vector does not have as many `what` as this FMU.
-fn check_count(given: usize, count: usize, what: &str) -> Outcome {
-    if given == count {
-        return Ok(());
-    }
-    refuse(format!(
-        "the vector has room for {given} {what}, but this FMU has {count}; pass that number"
-    ))
 }
 
 /// # Safety
@@ -127,14 +99,8 @@ pub unsafe extern "C" fn fmi2SetContinuousStates(
     x: *const fmi2Real,
     nx: usize,
 ) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        check_count(nx, STATES.len(), "continuous states")?;
-        // SAFETY: passed on from the caller.
-        let x = unsafe { elements(x, nx, "x")? };
-        Ok(instance.block.set_states(x)?)
-    };
     // SAFETY: passed on from the caller.
-    unsafe { call(c, Function::fmi2SetContinuousStates, body) }
+    unsafe { set_states(c, Function::fmi2SetContinuousStates, x, nx) }
 }
 
 /// # Safety
@@ -145,9 +111,9 @@ pub unsafe extern "C" fn fmi2GetContinuousStates(
     x: *mut fmi2Real,
     nx: usize,
 ) -> fmi2Status {
-    let answer = |instance: &mut Instance| Ok(instance.block.states()?);
+    let function = Function::fmi2GetContinuousStates;
     // SAFETY: passed on from the caller.
-    unsafe { state_vector(c, Function::fmi2GetContinuousStates, x, nx, answer) }
+    unsafe { state_vector(c, function, Vector::States, x, nx) }
 }
 
 /// # Safety
@@ -158,9 +124,9 @@ pub unsafe extern "C" fn fmi2GetDerivatives(
     derivatives: *mut fmi2Real,
     nx: usize,
 ) -> fmi2Status {
-    let answer = |instance: &mut Instance| Ok(instance.block.derivatives()?);
+    let function = Function::fmi2GetDerivatives;
     // SAFETY: passed on from the caller.
-    unsafe { state_vector(c, Function::fmi2GetDerivatives, derivatives, nx, answer) }
+    unsafe { state_vector(c, function, Vector::Derivatives, derivatives, nx) }
 }
 
 /// # Safety
@@ -171,32 +137,9 @@ pub unsafe extern "C" fn fmi2GetNominalsOfContinuousStates(
     x_nominal: *mut fmi2Real,
     nx: usize,
 ) -> fmi2Status {
-    let answer = |_: &mut Instance| Ok(STATES.map(|state| state.nominal));
     let function = Function::fmi2GetNominalsOfContinuousStates;
     // SAFETY: passed on from the caller.
-    unsafe { state_vector(c, function, x_nominal, nx, answer) }
-}
-
-/// Returns one number for each continuous state.
-///
-/// # Safety
-/// As `call`; `out` has `count` elements.
-unsafe fn state_vector(
-    c: fmi2Component,
-    function: Function,
-    out: *mut fmi2Real,
-    count: usize,
-    answer: impl FnOnce(&mut Instance) -> Result<[f64; STATES.len()], Message>,
-) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        check_count(count, STATES.len(), "continuous states")?;
-        // SAFETY: passed on from the caller.
-        let out = unsafe { room(out, count, "the vector for the result")? };
-        fill(out, answer(instance)?);
-        Ok(())
-    };
-    // SAFETY: passed on from the caller.
-    unsafe { call(c, function, body) }
+    unsafe { state_vector(c, function, Vector::Nominals, x_nominal, nx) }
 }
 
 /// # Safety

@@ -2,16 +2,18 @@
 
 #![allow(non_camel_case_types, non_snake_case)]
 
-use core::ffi::{c_char, c_int, c_uint, c_void};
+use crate::fmi::types::{Component, Environment, StatePointer, Status, Text, ValueReference};
+use core::ffi::{c_char, c_int, c_void};
 
-pub type fmi2Component = *mut c_void;
-pub type fmi2ComponentEnvironment = *mut c_void;
-pub type fmi2FMUstate = *mut c_void;
-pub type fmi2ValueReference = c_uint;
+pub type fmi2Component = Component;
+pub type fmi2ComponentEnvironment = Environment;
+pub type fmi2FMUstate = StatePointer;
+pub type fmi2ValueReference = ValueReference;
+pub type fmi2Status = Status;
 pub type fmi2Real = f64;
 pub type fmi2Integer = c_int;
 pub type fmi2Boolean = c_int;
-pub type fmi2String = *const c_char;
+pub type fmi2String = Text;
 pub type fmi2Byte = c_char;
 /// An `fmi2Type` or `fmi2StatusKind` as an importer passes it: any integer may arrive.
 pub type fmi2Enumeration = c_int;
@@ -27,17 +29,6 @@ pub const FMI2_LAST_SUCCESSFUL_TIME: fmi2Enumeration = 2;
 pub const FMI2_TERMINATED: fmi2Enumeration = 3;
 
 pub const FMI2_FALSE: fmi2Boolean = 0;
-
-/// The status that a function returns. Three are never returned: `fmi2Discard`, because no step may
-/// be repeated with a smaller size; `fmi2Fatal`, because no error affects other instances;
-/// `fmi2Pending`, because no step runs asynchronously.
-#[repr(C)]
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum fmi2Status {
-    fmi2OK = 0,
-    fmi2Warning = 1,
-    fmi2Error = 3,
-}
 
 pub type fmi2CallbackLogger = unsafe extern "C" fn(
     fmi2ComponentEnvironment,

@@ -1,11 +1,11 @@
 //! What the shared library exports.
 
-use crate::support::{Fmu, c, fmu};
+use crate::support::{Fmu, c, c3, fmu};
 use object::Object;
 use std::{collections::BTreeSet, ffi::CStr, fs};
 
 #[test]
-fn the_44_functions_of_the_standard_are_exported_and_nothing_else() {
+fn the_44_and_75_functions_of_the_standards_are_exported_and_nothing_else() {
     // `Fmu::shared` has looked each of them up; here is what the file says itself.
     let bytes = fs::read(fmu::binary(&Fmu::shared().folder)).unwrap();
     let file = object::File::parse(&*bytes).unwrap();
@@ -19,8 +19,9 @@ fn the_44_functions_of_the_standard_are_exported_and_nothing_else() {
         name.strip_prefix('_').unwrap_or(name).to_owned()
     });
     let exported: BTreeSet<String> = names.collect();
-    let standard: BTreeSet<String> = c::NAMES.iter().map(|n| (*n).to_owned()).collect();
-    assert_eq!(standard.len(), 44);
+    let standard = c::NAMES.iter().chain(&c3::NAMES);
+    let standard: BTreeSet<String> = standard.map(|n| (*n).to_owned()).collect();
+    assert_eq!(standard.len(), 44 + 75);
     assert_eq!(exported, standard);
 }
 

@@ -8,7 +8,7 @@ use helicopter_rotor::block::variables::{REALS, integer};
 use std::arch::asm;
 
 /// MXCSR: the default, and the bits of Intel's Software Developer's Manual, volume 1, 10.2.3.
-const DEFAULT: u32 = 0x1f80;
+pub const DEFAULT: u32 = 0x1f80;
 const MASKS: u32 = 0x1f80;
 const FLUSH_TO_ZERO: u32 = 1 << 15;
 const DENORMALS_ARE_ZERO: u32 = 1 << 6;
@@ -21,24 +21,34 @@ const OVERFLOW: u32 = 1 << 3;
 const UNDERFLOW: u32 = 1 << 4;
 const INEXACT: u32 = 1 << 5;
 
-fn mxcsr() -> u32 {
+/// Traps of three kinds and of all, other rounding, and flushing.
+pub const OTHERS: [u32; 6] = [
+    DEFAULT & !(INVALID | DIVISION_BY_ZERO | OVERFLOW) << 7,
+    DEFAULT & !MASKS,
+    DEFAULT | DOWN | INEXACT,
+    DEFAULT | UP | UNDERFLOW,
+    DEFAULT | TOWARDS_ZERO | INVALID,
+    DEFAULT | FLUSH_TO_ZERO | DENORMALS_ARE_ZERO,
+];
+
+pub fn mxcsr() -> u32 {
     let mut value = 0_u32;
     // SAFETY: writes 4 bytes to `value`.
     unsafe { asm!("stmxcsr [{}]", in(reg) &raw mut value) };
     value
 }
 
-fn set_mxcsr(value: u32) {
+pub fn set_mxcsr(value: u32) {
     // SAFETY: only defined bits are set.
     unsafe { asm!("ldmxcsr [{}]", in(reg) &raw const value) };
 }
 
 /// Makes calls in an environment, and asserts that each leaves it as it is.
-struct Host(u32);
+pub struct Host(pub u32);
 
 impl Host {
     #[inline(never)]
-    fn call<T>(&self, what: &str, call: impl FnOnce() -> T) -> T {
+    pub fn call<T>(&self, what: &str, call: impl FnOnce() -> T) -> T {
         set_mxcsr(self.0);
         let answer = call();
         let after = mxcsr();
@@ -103,14 +113,7 @@ fn traps_rounding_and_flushing_of_the_importer_change_no_bit_and_stay() {
             }
             for flight in flights {
                 let usual = fly(&Host(DEFAULT), inflow, flaps, flight);
-                for environment in [
-                    DEFAULT & !(INVALID | DIVISION_BY_ZERO | OVERFLOW) << 7,
-                    DEFAULT & !MASKS,
-                    DEFAULT | DOWN | INEXACT,
-                    DEFAULT | UP | UNDERFLOW,
-                    DEFAULT | TOWARDS_ZERO | INVALID,
-                    DEFAULT | FLUSH_TO_ZERO | DENORMALS_ARE_ZERO,
-                ] {
+                for environment in OTHERS {
                     let here = fly(&Host(environment), inflow, flaps, flight);
                     let case = format!("inflow {inflow}, {flaps}, {flight:?}, {environment:x}");
                     assert_eq!(here.len(), usual.len());

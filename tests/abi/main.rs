@@ -16,6 +16,7 @@ mod exports;
 mod extremes;
 mod files;
 mod float_environment;
+mod fmi3;
 mod fmu_state;
 mod get_set;
 mod hostile_files;

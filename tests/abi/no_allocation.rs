@@ -58,14 +58,11 @@ fn instance(kind: fmi2Enumeration, (model, flaps): (&str, i32)) -> fmi2Component
         let c = fmi2Instantiate(name, kind, guid, folder, ptr::null(), 0, 0);
         assert!(!c.is_null());
         let reference = integer::MODELS__INFLOW.number();
-        assert_eq!(
-            fmi2SetInteger(c, &reference, 1, &choice),
-            fmi2Status::fmi2OK
-        );
+        assert_eq!(fmi2SetInteger(c, &reference, 1, &choice), fmi2Status::Ok);
         let reference = boolean::FLAPPING__ENABLED.number();
-        assert_eq!(fmi2SetBoolean(c, &reference, 1, &flaps), fmi2Status::fmi2OK);
-        assert_eq!(fmi2EnterInitializationMode(c), fmi2Status::fmi2OK);
-        assert_eq!(fmi2ExitInitializationMode(c), fmi2Status::fmi2OK);
+        assert_eq!(fmi2SetBoolean(c, &reference, 1, &flaps), fmi2Status::Ok);
+        assert_eq!(fmi2EnterInitializationMode(c), fmi2Status::Ok);
+        assert_eq!(fmi2ExitInitializationMode(c), fmi2Status::Ok);
         c
     }
 }
@@ -83,7 +80,7 @@ fn thrust(c: fmi2Component) -> f64 {
     let mut values = [0.0; 3];
     // SAFETY: the instance lives, and the arrays are as long as is said.
     let status = unsafe { fmi2GetReal(c, OUTPUTS.as_ptr(), OUTPUTS.len(), values.as_mut_ptr()) };
-    assert_eq!(status, fmi2Status::fmi2OK);
+    assert_eq!(status, fmi2Status::Ok);
     values[0]
 }
 
@@ -98,7 +95,7 @@ fn steps_and_numbers_allocate_nothing() {
             let c = instance(FMI2_CO_SIMULATION, rotor);
             let count = allocations.count(|| {
                 for i in 0..5 {
-                    assert_eq!(set_inputs(c, i), fmi2Status::fmi2OK);
+                    assert_eq!(set_inputs(c, i), fmi2Status::Ok);
                     let (orders, slopes) = ([1; 4], [0.1, 20.0, 1.0, -1.0]);
                     let (vr, n) = (INPUTS.as_ptr(), INPUTS.len());
                     // SAFETY: the calls and their arguments are those of the standard.
@@ -106,10 +103,10 @@ fn steps_and_numbers_allocate_nothing() {
                         if is_moving {
                             let (orders, slopes) = (orders.as_ptr(), slopes.as_ptr());
                             let status = fmi2SetRealInputDerivatives(c, vr, n, orders, slopes);
-                            assert_eq!(status, fmi2Status::fmi2OK);
+                            assert_eq!(status, fmi2Status::Ok);
                         }
                         let status = fmi2DoStep(c, 0.01 * f64::from(i), 0.01, 1);
-                        assert_eq!(status, fmi2Status::fmi2OK);
+                        assert_eq!(status, fmi2Status::Ok);
                     }
                     assert!(thrust(c).is_finite());
                 }
@@ -166,7 +163,7 @@ fn an_integration_by_the_importer_allocates_nothing() {
                         fmi2EnterEventMode(c),
                     ]
                 };
-                assert_eq!(statuses, [fmi2Status::fmi2OK; 10]);
+                assert_eq!(statuses, [fmi2Status::Ok; 10]);
                 assert!(thrust(c).is_finite());
             }
         });

@@ -47,12 +47,12 @@ pub struct EventInfo {
 }
 
 macro_rules! functions {
-    ($($name:ident($($argument:ty),*) $(-> $answer:ty)?;)*) => {
+    ($count:literal; $($name:ident($($argument:ty),*) $(-> $answer:ty)?;)*) => {
         /// The functions of the shared library, by their names in C.
         pub struct Functions { $(pub $name: unsafe extern "C" fn($($argument),*) $(-> $answer)?,)* }
 
         /// The names of all functions.
-        pub const NAMES: [&str; 44] = [$(stringify!($name),)*];
+        pub const NAMES: [&str; $count] = [$(stringify!($name),)*];
 
         impl Functions {
             /// Looks all functions up.
@@ -71,7 +71,10 @@ macro_rules! functions {
     };
 }
 
+pub(super) use functions;
+
 functions! {
+    44;
     // Common functions
     fmi2GetTypesPlatform() -> Text;
     fmi2GetVersion() -> Text;

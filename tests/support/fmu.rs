@@ -1,6 +1,6 @@
 //! The FMU as an importer has it on its disk, loaded.
 
-use super::c::Functions;
+use super::{c::Functions, c3};
 use helicopter_rotor::{block::variables::MODEL_IDENTIFIER, description};
 use std::{
     env::consts::{DLL_PREFIX, DLL_SUFFIX},
@@ -102,6 +102,7 @@ pub fn uri(path: &Path) -> String {
 /// An unpacked FMU with its shared library loaded.
 pub struct Fmu {
     pub functions: Functions,
+    pub of_fmi3: c3::Functions,
     pub folder: PathBuf,
     library: libloading::Library,
 }
@@ -128,9 +129,11 @@ impl Fmu {
         // SAFETY: the library has no initialisation routines but those of the C runtime.
         let library = unsafe { libloading::Library::new(binary(folder)) }.unwrap();
         // SAFETY: it is ours, and is kept with the functions.
-        let functions = unsafe { Functions::find(&library) };
+        let (functions, of_fmi3) =
+            unsafe { (Functions::find(&library), c3::Functions::find(&library)) };
         Self {
             functions,
+            of_fmi3,
             folder: folder.to_owned(),
             library,
         }

@@ -23,13 +23,13 @@ use std::{
 };
 use validation::Purpose;
 
-/// Makes HelicopterRotor.fmu, a helicopter rotor as an FMI 2.0 FMU for Co-Simulation and Model
-/// Exchange.
+/// Makes HelicopterRotor.fmu, a helicopter rotor as an FMU for Co-Simulation and Model Exchange, for
+/// FMI 2.0 and, as HelicopterRotor-fmi3.fmu, for FMI 3.0.
 ///
-/// Without a command: makes target/fmu/HelicopterRotor.fmu, flies the rotors that Knight & Hefner
-/// measured in 1937 with it in FMPy, prints computed and measured thrust and torque, and plots them
-/// beside the FMU. FMPy and the other Python packages are installed into an environment of their
-/// own in target/python.
+/// Without a command: makes target/fmu/HelicopterRotor.fmu and the file of FMI 3.0 beside it, flies
+/// the rotors that Knight & Hefner measured in 1937 with the former in FMPy, prints computed and
+/// measured thrust and torque, and plots them beside the FMU. FMPy and the other Python packages are
+/// installed into an environment of their own in target/python.
 ///
 /// Files and folders are replaced when the new ones are complete, and not before. Where one is
 /// given as a symbolic link, the link stays and the file or folder to which it leads is written.
@@ -45,9 +45,10 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
-    /// Make the .fmu only
+    /// Make the two .fmu only
     Package {
-        /// The .fmu to write [default: target/fmu/HelicopterRotor.fmu]
+        /// The .fmu of FMI 2.0 to write [default: target/fmu/HelicopterRotor.fmu]; that of FMI 3.0
+        /// gets `-fmi3` at the end of its name
         ///
         /// A regular file, old or new: folders, devices and FIFOs are refused. Of a symbolic link
         /// the target is written, also if it does not exist yet, and the link stays.
@@ -163,8 +164,10 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
             let out = out.unwrap_or(default_fmu);
             // Refused before the library is built.
             draft::place_of_file(&out)?;
-            package::write(&out, &selection.contents(given, &target)?)?;
-            output::print(format_args!("Made {}", out.display()))
+            draft::place_of_file(&package::beside(&out))?;
+            let other = package::write_both(&out, &selection.contents(given, &target)?)?;
+            output::print(format_args!("Made {}", out.display()))?;
+            output::print(format_args!("Made {}", other.display()))
         }
         // Has returned above, as it needs no source tree.
         Some(Command::Polar(_)) => Ok(()),
@@ -192,7 +195,10 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
         }
         Some(Command::Python) => output::print(python::environment(&target)?.display()),
         None => {
-            make_fmu(&default_fmu, &library()?)?;
+            let contents = package::Contents::of_host(&library()?)?;
+            let other = package::write_both(&default_fmu, &contents)?;
+            output::print(format_args!("Made {}", default_fmu.display()))?;
+            output::print(format_args!("Made {}", other.display()))?;
             scripts::fly_knight_hefner(&default_fmu, &target)
         }
     }

@@ -2,7 +2,10 @@
 
 use super::platform::Platform;
 use crate::{Failure, files};
-use helicopter_rotor::{block::variables::GUID, fmi2::legality};
+use helicopter_rotor::{
+    block::variables::{GUID, INSTANTIATION_TOKEN},
+    fmi2, fmi3,
+};
 use object::{
     Architecture, BinaryFormat, FileKind, Object,
     read::macho::{FatArch, MachOFatFile32},
@@ -14,7 +17,7 @@ use std::path::Path;
 pub struct Binary(pub Vec<u8>);
 
 /// Reads a library. It must be one for this platform with the functions of the standard, and must
-/// contain the GUID of the description.
+/// contain GUID and token of the descriptions.
 pub fn read(platform: Platform, file: &Path) -> Result<Binary, Failure> {
     // A FIFO or a device may have no end.
     if file.exists() && !file.is_file() {
@@ -48,18 +51,19 @@ fn check(platform: Platform, content: &[u8]) -> Result<(), String> {
                 in_words(format, processor)
             ));
         }
-        if !part
-            .windows(GUID.len())
-            .any(|window| window == GUID.as_bytes())
-        {
+        let has = |token: &str| {
+            let mut windows = part.windows(token.len());
+            windows.any(|window| window == token.as_bytes())
+        };
+        if !has(GUID) || !has(INSTANTIATION_TOKEN) {
             return Err("was built from another modelDescription.xml than this program; build both again with `cargo build`".into());
         }
         let exports = exports(&file)?;
-        for (function, _, _) in legality::TABLE {
-            if !exports.iter().any(|export| *export == function.name()) {
+        for function in fmi2::legality::TABLE.iter().chain(fmi3::legality::TABLE) {
+            if !exports.iter().any(|export| *export == function.name) {
                 return Err(format!(
                     "does not export {}; name the shared library `helicopter_rotor` that cargo has built",
-                    function.name()
+                    function.name
                 ));
             }
         }

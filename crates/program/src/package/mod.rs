@@ -1,5 +1,5 @@
 //! Writing the .fmu: a zip archive of the description, the binary, resources and documentation
-//! (FMI 2.0.5, section 2.3).
+//! (FMI 2.0.5, section 2.3; FMI 3.0.2, section 2.5). One library makes the files of both versions.
 //!
 //! * `selection.rs`: the platforms of the .fmu
 //! * `library.rs`: building the library for this machine
@@ -21,45 +21,78 @@ use crate::{
     draft::{Draft, place_of_file},
     failed, files, sources,
 };
-use helicopter_rotor::{block::variables::MODEL_IDENTIFIER, description};
+use helicopter_rotor::{block::variables::MODEL_IDENTIFIER, description, fmi::legality::Version};
+use platform::Platform;
 use std::{
-    borrow::Cow,
+    env,
     fs::File,
     io::{Seek, Write},
     path::{Path, PathBuf},
+    time::{Duration, UNIX_EPOCH},
 };
 use zip::{DateTime, ZipWriter, write::SimpleFileOptions};
 
 /// The single files of modelDescription/ that go into the archive under the same name.
-const FILES: [&str; 3] = [
+const FILES: [&str; 4] = [
     "documentation/diagram.svg",
-    "documentation/fmi-ls-ref.html",
-    "model.png",
+    "documentation/diagram.png",
+    "terminalsAndIcons/icon.svg",
+    "terminalsAndIcons/icon.png",
 ];
+
+/// Files for FMI 2.0 alone: the icon at its old place, and the page of the reference flights.
+const FILES_OF_FMI2: [&str; 2] = ["documentation/fmi-ls-ref.html", "model.png"];
 
 /// The folders of modelDescription/ that go into the archive with all their files, and their names
 /// in it.
-const FOLDERS: [(&str, &str); 3] = [
+const FOLDERS: [(&str, &str); 2] = [
     ("licenses", "documentation/licenses"),
     ("resources", "resources"),
-    ("extra", "extra"),
 ];
+
+/// The reference flights, which name the variables as FMI 2.0 has them.
+const FOLDERS_OF_FMI2: [(&str, &str); 1] = [("extra", "extra")];
 
 /// The folder modelDescription/ in the source tree.
 fn model_description() -> PathBuf {
     sources().join("modelDescription")
 }
 
-/// Writes the .fmu with these libraries in it. After an error there is no incomplete `file`.
+/// Writes the .fmu of FMI 2.0 with these libraries in it. After an error there is no incomplete
+/// `file`.
 pub fn write(file: &Path, contents: &Contents) -> Result<(), Failure> {
+    write_version(file, contents, Version::Two)
+}
+
+/// Writes the .fmu of FMI 2.0, and then that of FMI 3.0 beside it. Returns the path of the latter.
+pub fn write_both(file: &Path, contents: &Contents) -> Result<PathBuf, Failure> {
+    let other = beside(file);
+    write_version(file, contents, Version::Two)?;
+    write_version(&other, contents, Version::Three)?;
+    Ok(other)
+}
+
+/// The .fmu of FMI 3.0 beside one of FMI 2.0: `HelicopterRotor-fmi3.fmu`.
+pub fn beside(file: &Path) -> PathBuf {
+    let mut name = file.file_stem().unwrap_or_default().to_owned();
+    name.push("-fmi3");
+    if let Some(extension) = file.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    file.with_file_name(name)
+}
+
+fn write_version(file: &Path, contents: &Contents, version: Version) -> Result<(), Failure> {
     let draft = Draft::new(place_of_file(file)?)?;
     let out =
         File::create(draft.path()).map_err(failed(format!("cannot write {}", file.display())))?;
-    archive(out, contents)?;
+    archive(out, contents, version)?;
     draft.publish()
 }
 
-fn archive(out: impl Write + Seek, contents: &Contents) -> Result<(), Failure> {
+fn archive(out: impl Write + Seek, contents: &Contents, version: Version) -> Result<(), Failure> {
+    let is_fmi2 = version == Version::Two;
     let mut zip = ZipWriter::new(out);
     // A fixed date and mode: the same content gives the same bytes.
     let options = SimpleFileOptions::default()
@@ -73,9 +106,13 @@ fn archive(out: impl Write + Seek, contents: &Contents) -> Result<(), Failure> {
             .map_err(failed(format!("cannot add {name} to the archive")))
     };
     let read = |relative: &str| files::read(&model_description().join(relative));
-    add("modelDescription.xml", xml(contents)?.as_bytes())?;
+    add("modelDescription.xml", xml(contents, version)?.as_bytes())?;
     for (platform, binary) in &contents.binaries {
-        let (folder, suffix) = (platform.folder(), platform.suffix());
+        if contents.is_for_arm_only && !is_fmi2 && *platform == Platform::Linux64 {
+            // Importers of FMI 3.0 find the folder of their machine.
+            continue;
+        }
+        let (folder, suffix) = (platform.folder_of(version), platform.suffix());
         add(
             &format!("binaries/{folder}/{MODEL_IDENTIFIER}{suffix}"),
             &binary.0,
@@ -83,10 +120,20 @@ fn archive(out: impl Write + Seek, contents: &Contents) -> Result<(), Failure> {
     }
     let page = documentation::page(&read("documentation/index.html")?)?;
     add("documentation/index.html", page.as_bytes())?;
-    for name in FILES {
+    let terminals = match version {
+        Version::Two => description::TERMINALS,
+        Version::Three => description::TERMINALS_OF_FMI3,
+    };
+    add(
+        "terminalsAndIcons/terminalsAndIcons.xml",
+        terminals.as_bytes(),
+    )?;
+    let files_of_version = FILES_OF_FMI2.iter().filter(|_| is_fmi2);
+    for name in FILES.iter().chain(files_of_version) {
         add(name, &read(name)?)?;
     }
-    for (folder, name_in_archive) in FOLDERS {
+    let folders_of_version = FOLDERS_OF_FMI2.iter().filter(|_| is_fmi2);
+    for (folder, name_in_archive) in FOLDERS.iter().chain(folders_of_version) {
         for relative in files::names_below(&model_description().join(folder))? {
             let content = read(&format!("{folder}/{relative}"))?;
             add(&format!("{name_in_archive}/{relative}"), &content)?;
@@ -96,17 +143,72 @@ fn archive(out: impl Write + Seek, contents: &Contents) -> Result<(), Failure> {
     Ok(())
 }
 
-/// modelDescription.xml, whose description says for what machines the .fmu is, if not for those
-/// that its folders say. The GUID stays that of the libraries.
-fn xml(contents: &Contents) -> Result<Cow<'static, str>, Failure> {
-    const BEGIN: &str = " description=\"";
+/// modelDescription.xml, with its date if the environment gives one, and with a description that
+/// says for what machines the .fmu is, if not for those that its folders say. The GUID or token
+/// stays that of the libraries.
+fn xml(contents: &Contents, version: Version) -> Result<String, Failure> {
+    const DESCRIPTION: &str = " description=\"";
     const ARM: &str = "For ARM Linux only: the binary in linux64 is for ARM. ";
-    if !contents.is_for_arm_only {
-        return Ok(Cow::Borrowed(description::XML));
+    const TOOL: &str = " generationTool=\"";
+    let mut xml = match version {
+        Version::Two => description::XML,
+        Version::Three => description::XML_OF_FMI3,
     }
+    .to_owned();
     // The first description is that of the whole model.
-    let (before, after) = description::XML
-        .split_once(BEGIN)
-        .ok_or_else(|| Failure("modelDescription.xml has no description; give it one".into()))?;
-    Ok(Cow::Owned(format!("{before}{BEGIN}{ARM}{after}")))
+    let mut put = |begin: &str, text: &str, is_behind: bool| {
+        let place = xml
+            .find(begin)
+            .ok_or_else(|| Failure(format!("modelDescription.xml has no{begin}; give it one")))?;
+        let place = if is_behind {
+            place + begin.len()
+        } else {
+            place
+        };
+        xml.insert_str(place, text);
+        Ok(())
+    };
+    if contents.is_for_arm_only && version == Version::Two {
+        put(DESCRIPTION, ARM, true)?;
+    }
+    if let Some(date) = date()? {
+        put(TOOL, &format!(" generationDateAndTime=\"{date}\""), false)?;
+    }
+    Ok(xml)
+}
+
+/// The date and time in SOURCE_DATE_EPOCH, in which build tools pass a number of seconds since 1970,
+/// so that the same source gives the same file. Without it, the file does not say when it was made.
+fn date() -> Result<Option<String>, Failure> {
+    const NAME: &str = "SOURCE_DATE_EPOCH";
+    /// The last second of the year 9999.
+    const LAST: u64 = 253_402_300_799;
+    let Some(text) = env::var_os(NAME) else {
+        return Ok(None);
+    };
+    let seconds = text.to_str().and_then(|text| text.parse().ok());
+    let seconds = seconds.filter(|seconds| *seconds <= LAST).ok_or_else(|| {
+        Failure(format!(
+            "{NAME} = {} is not a number of seconds since 1970; set one, or remove it from the environment",
+            text.display()
+        ))
+    })?;
+    let date = UNIX_EPOCH + Duration::from_secs(seconds);
+    Ok(Some(humantime::format_rfc3339_seconds(date).to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_file_of_fmi_3_lies_beside_that_of_fmi_2() {
+        for (file, other) in [
+            ("a/HelicopterRotor.fmu", "a/HelicopterRotor-fmi3.fmu"),
+            ("rotor", "rotor-fmi3"),
+            ("a.b.fmu", "a.b-fmi3.fmu"),
+        ] {
+            assert_eq!(beside(Path::new(file)), Path::new(other));
+        }
+    }
 }

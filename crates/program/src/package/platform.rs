@@ -1,6 +1,7 @@
 //! The platforms whose binaries an FMU can contain.
 
 use crate::Failure;
+use helicopter_rotor::fmi::legality::Version;
 use object::{Architecture, BinaryFormat};
 use std::{fmt, str::FromStr};
 
@@ -27,6 +28,17 @@ impl Platform {
             Darwin64 => "darwin64",
             Aarch64Linux => "aarch64-linux",
             Aarch64Darwin => "aarch64-darwin",
+        }
+    }
+
+    /// Its folder below `binaries/`: in FMI 3.0 the tuple of processor and system (FMI 3.0.2,
+    /// section 2.5.1.4).
+    pub fn folder_of(self, version: Version) -> &'static str {
+        match (version, self) {
+            (Version::Two, _) | (_, Aarch64Linux | Aarch64Darwin) => self.folder(),
+            (_, Linux64) => "x86_64-linux",
+            (_, Win64) => "x86_64-windows",
+            (_, Darwin64) => "x86_64-darwin",
         }
     }
 

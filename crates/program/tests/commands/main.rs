@@ -8,6 +8,7 @@
 mod environment;
 mod examples;
 mod first_use;
+mod fmi3;
 mod importers;
 mod importers_table;
 mod package;

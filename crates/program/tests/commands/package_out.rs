@@ -151,20 +151,26 @@ fn observed(out: &Path) -> (Command, PathBuf) {
 
 /// Otherwise a power failure shortly afterwards could leave an empty file.
 #[test]
-fn the_file_is_on_the_disk_before_it_takes_its_place_and_the_folder_afterwards() {
+fn each_file_is_on_the_disk_before_it_takes_its_place_and_the_folder_afterwards() {
     let folder = folder("durable");
     let out = folder.join("rotor.fmu");
     let (mut command, calls) = observed(&out);
     succeed(&mut command);
     let calls = fs::read_to_string(calls).unwrap();
     let calls: Vec<_> = calls.lines().collect();
-    let [file, rename, names] = calls[..] else {
-        panic!("{calls:?}");
-    };
-    let prefix = format!("fsync {}/.rotor.fmu.", folder.display());
-    assert!(file.starts_with(&prefix), "{file}");
-    assert_eq!(rename, format!("rename to {}", out.display()));
-    assert_eq!(names, format!("fsync {}", folder.display()));
+    assert_eq!(calls.len(), 6, "{calls:?}");
+    for (calls, name) in calls.chunks(3).zip(["rotor.fmu", "rotor-fmi3.fmu"]) {
+        let [file, rename, names] = calls else {
+            panic!("{calls:?}");
+        };
+        let prefix = format!("fsync {}/.{name}.", folder.display());
+        assert!(file.starts_with(&prefix), "{file}");
+        assert_eq!(
+            *rename,
+            format!("rename to {}", folder.join(name).display())
+        );
+        assert_eq!(*names, format!("fsync {}", folder.display()));
+    }
 }
 
 #[test]

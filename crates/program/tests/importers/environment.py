@@ -5,6 +5,7 @@ import re
 import shutil
 import subprocess
 import sys
+import sysconfig
 import venv
 from pathlib import Path
 
@@ -60,7 +61,11 @@ class Environment:
     @property
     def variables(self):
         """Environment variables of the scripts."""
-        return {"FMI_SIM": str(self.rust / "bin" / "fmi-sim")}
+        return {
+            "FMI_SIM": str(self.rust / "bin" / "fmi-sim"),
+            # For FMUs that contain Python.
+            "LD_LIBRARY_PATH": sysconfig.get_config_var("LIBDIR") or "",
+        }
 
 
 def run(command):

@@ -19,6 +19,7 @@ MODES = {
     "again": "twice, each time with an instance of its own, one after the other",
     "reset": "twice with one instance, which is reset and set up again in between",
     "ssp": "once, as the only component of a system in an .ssp file",
+    "controlled": "for five seconds, with a controller; it answers thrust and collective pitch",
     "workaround": "once, after changing what keeps the importer from setting strings",
 }
 AS_PYTHON = {

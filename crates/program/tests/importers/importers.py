@@ -58,6 +58,9 @@ IMPORTERS = [
     FMU_RUNNER,
 ]
 
+# Those that are flown with the file of FMI 3.0, too.
+OF_FMI3 = [FMPY, LIBCOSIM, ECOS, FMI_SIM]
+
 # What a program prints if the importer has no function for a kind of flight: no gap in it.
 NO_FUNCTION = "no function to fly"
 
@@ -97,3 +100,25 @@ NOTES = {
         "fmu-runner has no function to set strings. Enumerations are set as integers.",
     ),
 }
+
+# The same for the file of FMI 3.0.
+NOTES_OF_FMI3 = {
+    ("Ecos", "enumerations"): Note(
+        "No variable named 'models.inflow' of type int",
+        "Ecos has no enumerations: it warns and flies with the default. Use `settings`.",
+    ),
+}
+for column in ["loads", "CS", "numbers", "strings", "enumerations", "`settings`"]:
+    NOTES_OF_FMI3["fmi-sim", column] = Note(
+        'unknown field "K" in element "BaseUnit"',
+        "fmi-sim, like the crate fmi on which it is built, does not know the attributes `K` and "
+        "`unit` of the standard and refuses the description. Without them it asks each array for "
+        "one value, which the FMU refuses. Use the file of FMI 2.0.",
+    )
+    NOTES_OF_FMI3["libcosimpy", column] = Note(
+        "ended by signal 11",
+        "libcosim ends with a segmentation fault while it reads any description of FMI 3.0, also "
+        "that of an FMU without a library. Use the file of FMI 2.0.",
+    )
+NOTES_OF_FMI3["fmi-sim", "ME"] = NOTES_OF_FMI3["fmi-sim", "CS"]
+NOTES_OF_FMI3["libcosimpy", "second run"] = NOTES_OF_FMI3["libcosimpy", "CS"]

@@ -14,10 +14,11 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from decimal import Decimal
+from pathlib import Path
 
 import page
 from environment import Environment
-from importers import FMPY, IMPORTERS
+from importers import ECOS, FMPY, IMPORTERS, NOTES, NOTES_OF_FMI3, OF_FMI3
 
 NUMBERS = [
     ("Real", "geometry.radius", "0.8"),
@@ -57,6 +58,20 @@ COLUMNS = {
     "reset": [Check("reset", VARIED, [VARIED, VARIED])],
     "SSP": [Check("ssp", VARIED, [VARIED])],
 }
+# Of the file of FMI 3.0.
+COLUMNS_OF_FMI3 = {
+    title: COLUMNS[title]
+    for title in [
+        "loads",
+        "CS",
+        "ME",
+        "numbers",
+        "strings",
+        "enumerations",
+        "`settings`",
+        "second run",
+    ]
+}
 WORKAROUND = Check("workaround", SETTINGS, [SETTINGS])
 
 
@@ -94,12 +109,15 @@ class Measurement:
         )
         lines = [line.split() for line in done.stdout.splitlines() if line.startswith("thrust ")]
         thrusts = [words[1] for words in lines]
-        return Flight(done.returncode == 0, thrusts, done.stdout + done.stderr)
+        output = done.stdout + done.stderr
+        if done.returncode < 0:
+            output += f"\nended by signal {-done.returncode}"
+        return Flight(done.returncode == 0, thrusts, output)
 
-    def row(self, importer):
-        """The row of an importer in the table."""
+    def row(self, importer, columns):
+        """The row of an importer in a table."""
         row = page.Row(importer)
-        for title, checks in COLUMNS.items():
+        for title, checks in columns.items():
             failures = [self.failure(row, check) for check in checks]
             failed = [failure for failure in failures if failure]
             row.cells[title] = "no" if failed else "yes"
@@ -124,6 +142,15 @@ class Measurement:
                 row.digits += [digits(*pair) for pair in pairs]
             return ""
         return f"{flight.output}\nexpected {expected}"
+
+
+def check_controller(*measurements):
+    """Ecos flies both files with one controller, which holds 80 N."""
+    flights = [measurement.fly(ECOS, "controlled", []) for measurement in measurements]
+    answers = [flight.thrusts for flight in flights]
+    is_held = all(flight.has_succeeded for flight in flights) and answers[0] == answers[1]
+    if not is_held or abs(float(answers[0][0]) - 80.0) > 1e-9:
+        sys.exit(f"Ecos with a controller: {answers}\n{flights[0].output}{flights[1].output}")
 
 
 ALL_DIGITS = 17
@@ -160,10 +187,21 @@ def main():
     ]
     environment = Environment(arguments.environment)
     environment.install(importers)
-    measurement = Measurement(environment, arguments.fmu)
+    of_fmi2 = Measurement(environment, arguments.fmu)
+    file = Path(arguments.fmu)
+    of_fmi3 = Measurement(environment, file.with_name(f"{file.stem}-fmi3{file.suffix}"))
+    if of_fmi2.references != of_fmi3.references:
+        sys.exit(f"FMI 3.0 differs: {of_fmi2.references} {of_fmi3.references}")
     with ThreadPoolExecutor(2) as pool:
-        rows = list(pool.map(measurement.row, importers))
-    text = page.text(rows, list(COLUMNS))
+        rows = list(pool.map(lambda importer: of_fmi2.row(importer, COLUMNS), importers))
+        both = [importer for importer in OF_FMI3 if importer in importers]
+        others = list(pool.map(lambda importer: of_fmi3.row(importer, COLUMNS_OF_FMI3), both))
+    if ECOS in importers:
+        check_controller(of_fmi2, of_fmi3)
+    text = page.text(
+        page.Table(IMPORTERS, NOTES, rows, list(COLUMNS), ""),
+        page.Table(OF_FMI3, NOTES_OF_FMI3, others, list(COLUMNS_OF_FMI3), " with FMI 3.0"),
+    )
     if arguments.write:
         page.write(text)
     else:

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from environment import versions
-from importers import IMPORTERS, NO_FUNCTION, NOTES, Importer
+from importers import NO_FUNCTION, Importer
 
 PAGE = Path(__file__).resolve().parents[4] / "docs" / "importers.md"
 TEXT = Path(__file__).resolve().parent / "page.md"
-MARK = "<!-- table and notes -->"
+MARKS = ["<!-- table and notes -->", "<!-- table and notes of FMI 3.0 -->"]
 ALL_DIGITS = 17
 REMEDY = (
     "run crates/program/tests/importers/measure.py with --all --write, and look at what changed"
@@ -36,61 +36,81 @@ class Row:
         return "equal" if fewest >= ALL_DIGITS else f"equal, {fewest} digits"
 
 
-def text(rows, columns):
-    """The page with these rows. Rows of importers that were not measured are those of the page."""
-    by_name = {row.importer.name: row for row in rows}
-    numbers = number_notes()
-    lines = [
-        table_line(["importer", "version", *columns, "thrust"]),
-        table_line(["---"] * (len(columns) + 3)),
-    ]
-    for importer in IMPORTERS:
-        row = by_name.get(importer.name)
-        lines.append(line(row, columns, numbers) if row else published(importer))
-    lines.append("")
-    lines += [f"{numbers[note]}. {note}" for note in numbers]
-    return TEXT.read_text().replace(MARK, "\n".join(lines))
+@dataclass
+class Table:
+    importers: list
+    # By importer and column.
+    notes: dict
+    # The rows that were measured. Others are those of the page.
+    rows: list
+    columns: list
+    # Behind the names of the importers.
+    suffix: str
+
+    def text(self):
+        by_name = {row.importer.name: row for row in self.rows}
+        numbers = self.number_notes()
+        lines = [
+            table_line(["importer", "version", *self.columns, "thrust"]),
+            table_line(["---"] * (len(self.columns) + 3)),
+        ]
+        for importer in self.importers:
+            row = by_name.get(importer.name)
+            name = importer.name + self.suffix
+            lines.append(self.line(row, name, numbers) if row else published(name))
+        lines.append("")
+        lines += [f"{numbers[note]}. {note}" for note in numbers]
+        return "\n".join(lines)
+
+    def number_notes(self):
+        """Notes by importer, each text once."""
+        numbers = {}
+        for importer in self.importers:
+            for (name, _), note in self.notes.items():
+                if name == importer.name:
+                    numbers.setdefault(note.text, len(numbers) + 1)
+        return numbers
+
+    def line(self, row, name, numbers):
+        cells = [self.cell(row, column, numbers) for column in self.columns]
+        version = versions()[row.importer.package]
+        return table_line([name, version, *cells, row.thrust])
+
+    def cell(self, row, column, numbers):
+        note = self.notes.get((row.importer.name, column))
+        output = row.outputs[column]
+        if NO_FUNCTION in output and not note:
+            return "-"
+        place = f"{row.importer.name}{self.suffix}, {column}"
+        if bool(note) != bool(output):
+            what = (
+                f"it has a note, but nothing failed: {note}"
+                if note
+                else f"no note says why:\n{output}"
+            )
+            sys.exit(f"{place}: {what}")
+        if note and note.evidence not in output:
+            sys.exit(
+                f"{place}: the note is about {note.evidence!r}, but this was printed:\n{output}"
+            )
+        return f"{row.cells[column]} ({numbers[note.text]})" if note else row.cells[column]
 
 
-def number_notes():
-    """Notes by importer, each text once."""
-    numbers = {}
-    for importer in IMPORTERS:
-        for (name, _), note in NOTES.items():
-            if name == importer.name:
-                numbers.setdefault(note.text, len(numbers) + 1)
-    return numbers
-
-
-def line(row, columns, numbers):
-    cells = [cell(row, column, numbers) for column in columns]
-    name, version = row.importer.name, versions()[row.importer.package]
-    return table_line([name, version, *cells, row.thrust])
-
-
-def cell(row, column, numbers):
-    note = NOTES.get((row.importer.name, column))
-    output = row.outputs[column]
-    if NO_FUNCTION in output and not note:
-        return "-"
-    place = f"{row.importer.name}, {column}"
-    if bool(note) != bool(output):
-        what = (
-            f"it has a note, but nothing failed: {note}" if note else f"no note says why:\n{output}"
-        )
-        sys.exit(f"{place}: {what}")
-    if note and note.evidence not in output:
-        sys.exit(f"{place}: the note is about {note.evidence!r}, but this was printed:\n{output}")
-    return f"{row.cells[column]} ({numbers[note.text]})" if note else row.cells[column]
+def text(*tables):
+    """The page with these tables."""
+    page = TEXT.read_text()
+    for mark, table in zip(MARKS, tables, strict=True):
+        page = page.replace(mark, table.text())
+    return page
 
 
 def table_line(cells):
     return "| " + " | ".join(cells) + " |"
 
 
-def published(importer):
+def published(name):
     """The line of an importer in the page."""
-    start = f"| {importer.name} |"
+    start = f"| {name} |"
     lines = PAGE.read_text().splitlines() if PAGE.is_file() else []
     return next((line for line in lines if line.startswith(start)), f"{start} not measured |")
 

@@ -1,6 +1,7 @@
 """Ecos in Python: https://pypi.org/project/ecospy. It needs the Debian package libtbb12."""
 
 import tempfile
+from pathlib import Path
 
 from ecospy import EcosLib, EcosSimulation, EcosSimulationStructure
 
@@ -62,6 +63,28 @@ def ssp(fmu, variables):
             return run(simulation, ["rotor"])
 
 
+def controlled(fmu, variables):
+    """The thrust that a controller holds, which is an FMU of FMI 3.0. It needs the shared library
+    of Python."""
+    from pythonfmu3.builder import FmuBuilder
+
+    script = Path(__file__).with_name("governor.py")
+    with tempfile.TemporaryDirectory() as folder, EcosSimulationStructure() as structure:
+        governor = FmuBuilder.build_FMU(script, dest=folder)
+        structure.add_model("rotor", fmu)
+        structure.add_model("governor", str(governor))
+        structure.make_real_connection("rotor::thrust", "governor::thrust")
+        structure.make_real_connection("governor::collective", "rotor::collective")
+        with EcosSimulation(step_size=1e-2, structure=structure) as simulation:
+            if not simulation.init():
+                raise RuntimeError(EcosLib.get_last_error())
+            simulation.step(500)
+            held = ["rotor::thrust", "governor::collective"]
+            answers = [simulation.get_real(name) for name in held]
+            simulation.terminate()
+    return answers
+
+
 if __name__ == "__main__":
     EcosLib.set_log_level("warn")
-    main({"fly": fly, "two": two, "again": again, "reset": reset, "ssp": ssp})
+    main({"fly": fly, "two": two, "again": again, "reset": reset, "ssp": ssp, "controlled": controlled})

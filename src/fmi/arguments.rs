@@ -5,7 +5,7 @@
 
 use super::{
     instance::{Message, Outcome, refuse},
-    types::fmi2String,
+    types::Text,
 };
 use core::{alloc::Layout, ffi::CStr, mem::MaybeUninit, slice};
 
@@ -100,7 +100,7 @@ pub fn fill<T>(room: &mut [MaybeUninit<T>], results: impl IntoIterator<Item = T>
 ///
 /// # Safety
 /// `text` is null or a C string that lives as long as the result.
-pub unsafe fn text<'a>(text: fmi2String, what: &str) -> Result<&'a str, Message> {
+pub unsafe fn text<'a>(text: Text, what: &str) -> Result<&'a str, Message> {
     if text.is_null() {
         return Err(Message::Error(format!(
             "{what} is a null pointer; pass a string"

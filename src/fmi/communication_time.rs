@@ -1,6 +1,6 @@
 //! Time as the importer keeps it, and how far its communication points may be from ours.
 
-use super::instance::{Outcome, refuse};
+use super::instance::{Message, Outcome, refuse};
 use serde::{Deserialize, Serialize};
 
 /// Rounding errors, in units of the last place of the largest time so far, that an importer may
@@ -24,9 +24,30 @@ pub struct Experiment {
 }
 
 impl Experiment {
+    /// An experiment that is at its start. An error if its times make no sense.
+    pub fn new(start_time: f64, stop_time: Option<f64>) -> Result<Self, Message> {
+        if !start_time.is_finite() {
+            refuse(format!(
+                "startTime = {start_time} is not finite; pass a finite time"
+            ))?;
+        }
+        if let Some(stop) = stop_time
+            && (stop.is_nan() || stop < start_time)
+        {
+            refuse(format!(
+                "stopTime = {stop} s is before startTime = {start_time} s; pass a later stopTime or none"
+            ))?;
+        }
+        Ok(Self {
+            start_time,
+            time: start_time,
+            stop_time,
+        })
+    }
+
     /// The end of a step that begins at the communication point `point`. An error if a step there
     /// makes no sense.
-    pub fn end_of_step(&self, point: f64, step: f64) -> Result<f64, super::instance::Message> {
+    pub fn end_of_step(&self, point: f64, step: f64) -> Result<f64, Message> {
         if step <= 0.0 || !step.is_finite() {
             refuse(format!(
                 "communicationStepSize = {step} s; the step must be positive and finite"
@@ -80,7 +101,6 @@ impl Experiment {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::fmi2::instance::Message;
 
     fn at(time: f64, stop_time: Option<f64>) -> Experiment {
         let start_time = time;

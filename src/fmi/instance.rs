@@ -3,14 +3,18 @@
 use super::{
     communication_time::Experiment,
     handle::{self, Marked},
-    legality::{EVENT_MODE, Function, INITIALIZATION_MODE, Interface, STEP_COMPLETE, States},
+    legality::{
+        EVENT_MODE, Function, INITIALIZATION_MODE, INSTANTIATED, Interface, STEP_COMPLETE,
+        STEP_MODE, States, Version,
+    },
     logger::{Category, Logger},
-    types::{fmi2Component, fmi2Status},
+    types::{Component, Status, ValueReference},
 };
 use crate::block::{
     BlockError, Note, PerVariable, RotorBlock,
     variables::{STRINGS, StringRef},
 };
+use crate::fmi3::types::fmi3IntermediateUpdateCallback;
 use crate::host::{float_environment::in_default_environment, memory::NO_MEMORY};
 use std::{
     any::Any,
@@ -19,13 +23,29 @@ use std::{
 };
 
 pub struct Instance {
+    pub version: Version,
     pub interface: Interface,
     pub state: States,
     pub block: RotorBlock,
     pub logger: Logger,
-    /// The strings that fmi2GetString returned; valid until the next call.
+    /// The strings that were returned; valid until the next call.
     pub strings: PerVariable<StringRef, CString, { STRINGS.len() }>,
     pub experiment: Experiment,
+    pub importer: Importer,
+    /// Memory for the elements of variables of FMI 3.0, so that getting and setting allocates none.
+    pub references: Vec<ValueReference>,
+    /// And for values of another width than the block's.
+    pub integers: Vec<i32>,
+}
+
+/// What an importer of FMI 3.0 can do in Co-Simulation.
+#[derive(Default)]
+pub struct Importer {
+    pub has_event_mode: bool,
+    pub allows_early_return: bool,
+    pub intermediate_update: Option<fmi3IntermediateUpdateCallback>,
+    /// The variables that it accesses during intermediate updates.
+    pub required: Vec<ValueReference>,
 }
 
 impl Marked for Instance {
@@ -58,21 +78,27 @@ pub fn refuse(text: String) -> Outcome {
 }
 
 impl Instance {
-    /// In Initialization Mode and in Model Exchange, outputs follow the inputs that were set; in
-    /// Co-Simulation they are those of the last step.
+    /// In Initialization Mode, in Event Mode and in Model Exchange, outputs follow the inputs that
+    /// were set; in steps of Co-Simulation they are those of the last one. Before the
+    /// initialisation, FMI 3.0 reads what the variables are then.
     pub fn refresh(&mut self) -> Result<(), BlockError> {
-        if self.state == INITIALIZATION_MODE || self.interface == Interface::ModelExchange {
-            self.block.update()
-        } else {
-            Ok(())
+        let is_current = match self.state {
+            INSTANTIATED => false,
+            INITIALIZATION_MODE | EVENT_MODE => true,
+            _ => self.interface == Interface::ModelExchange,
+        };
+        if is_current {
+            self.block.update()?;
         }
+        Ok(())
     }
 
     /// The state after the initialisation.
     pub fn initialized(&self) -> States {
-        match self.interface {
-            Interface::CoSimulation => STEP_COMPLETE,
-            Interface::ModelExchange => EVENT_MODE,
+        match (self.interface, self.version) {
+            (Interface::CoSimulation, Version::Two) => STEP_COMPLETE,
+            (Interface::CoSimulation, Version::Three) if !self.importer.has_event_mode => STEP_MODE,
+            _ => EVENT_MODE,
         }
     }
 }
@@ -81,20 +107,35 @@ impl Instance {
 /// state, catches panics, and logs the outcome. The body runs in the default floating-point
 /// environment, the logger in the importer's.
 ///
-/// A warning of the block is logged with fmi2Warning, but the call returns fmi2OK: many importers
-/// end the simulation at any other answer.
+/// A warning of the block is logged as a warning, but the call returns OK: many importers end the
+/// simulation at any other answer.
 ///
 /// # Safety
-/// `component` is null or comes from fmi2Instantiate, is not freed, and no other call on it runs.
+/// `component` is null or an instance that is not freed, and no other call on it runs.
 pub unsafe fn call(
-    component: fmi2Component,
-    function: Function,
+    component: Component,
+    function: &'static Function,
     body: impl FnOnce(&mut Instance) -> Outcome,
-) -> fmi2Status {
+) -> Status {
+    let mut body = Some(body);
+    let mut once = |instance: &mut Instance| body.take().map_or(Ok(()), |body| body(instance));
+    // SAFETY: passed on from the caller.
+    unsafe { run(component, function, &mut once) }
+}
+
+/// As `call`. The frame is in the library once, and not once for each function.
+///
+/// # Safety
+/// As `call`.
+unsafe fn run(
+    component: Component,
+    function: &'static Function,
+    body: &mut dyn FnMut(&mut Instance) -> Outcome,
+) -> Status {
     // SAFETY: passed on from the caller.
     let Some(instance) = (unsafe { handle::living::<Instance>(component) }) else {
         // Without an instance there is no logger to tell.
-        return fmi2Status::fmi2Error;
+        return Status::Error;
     };
     let instance = instance.as_ptr();
     let run = || {
@@ -102,7 +143,7 @@ pub unsafe fn call(
         // ends before the logger runs, which may call back into this library.
         let instance = unsafe { &mut *instance };
         function
-            .check(instance.interface, instance.state)
+            .check(instance.version, instance.interface, instance.state)
             .map_err(Message::Error)?;
         body(instance)
     };
@@ -114,13 +155,13 @@ pub unsafe fn call(
         });
 
     let (status, mut lines) = match outcome {
-        Ok(()) => (fmi2Status::fmi2OK, Vec::new()),
+        Ok(()) => (Status::Ok, Vec::new()),
         Err(Message::Warning(text)) => (
-            fmi2Status::fmi2Warning,
+            Status::Warning,
             vec![(Category::Warning, prefixed(function, &text))],
         ),
         Err(Message::Error(text)) => (
-            fmi2Status::fmi2Error,
+            Status::Error,
             vec![(Category::Error, prefixed(function, &text))],
         ),
     };
@@ -137,7 +178,7 @@ pub unsafe fn call(
         let logger = unsafe { (*instance).logger.clone() };
         let log = || {
             for (category, text) in &lines {
-                logger.log(category.status(), *category, text);
+                logger.log(*category, text);
             }
         };
         // A panic in the logger cannot be logged.
@@ -146,12 +187,11 @@ pub unsafe fn call(
     status
 }
 
-fn prefixed(function: Function, text: &str) -> String {
-    let name = function.name();
-    if text.starts_with(name) {
+fn prefixed(function: &Function, text: &str) -> String {
+    if text.starts_with(function.name) {
         text.to_owned()
     } else {
-        format!("{name}: {text}")
+        format!("{}: {text}", function.name)
     }
 }
 

@@ -3,7 +3,7 @@
 //! ```text
 //! magic        8 bytes  "HelRotor"
 //! version      4 bytes  of this format, little-endian
-//! GUID        38 bytes  of modelDescription.xml
+//! GUID        38 bytes  of modelDescription.xml of FMI 2.0, or the token of FMI 3.0
 //! length       8 bytes  of the content, little-endian
 //! content               an `FmuState` in the format of the crate postcard
 //! checksum     4 bytes  CRC-32 of everything before it, little-endian
@@ -12,8 +12,8 @@
 use super::{
     fmu_state::FmuState,
     legality::{
-        CONTINUOUS_TIME_MODE, EVENT_MODE, INITIALIZATION_MODE, INSTANTIATED, Interface,
-        STEP_COMPLETE, TERMINATED,
+        CONFIGURATION_MODE, CONTINUOUS_TIME_MODE, EVENT_MODE, INITIALIZATION_MODE, INSTANTIATED,
+        Interface, RECONFIGURATION_MODE, STEP_COMPLETE, STEP_MODE, TERMINATED, Version,
     },
 };
 use crate::block::{Contradiction, Stage, variables::GUID};
@@ -35,8 +35,15 @@ pub enum DecodeError {
         "the state was serialized in format {0}, this FMU reads {VERSION}; use the FMU that wrote it"
     )]
     Version(u32),
-    #[error("the state was serialized by an FMU with the GUID {0}, not {GUID}; use that FMU")]
-    Guid(String),
+    #[error(
+        "the state was serialized by an FMU with the {name} {given}, not {}; use that FMU",
+        version.token()
+    )]
+    Token {
+        given: String,
+        version: Version,
+        name: &'static str,
+    },
     #[error("the state is cut short or too long: {given} bytes instead of {length}")]
     Length { given: usize, length: u64 },
     #[error("the state was damaged: its checksum is wrong")]
@@ -71,19 +78,21 @@ impl FmuState {
         let content = postcard::to_allocvec(self).map_err(DecodeError::Unwritable)?;
         let mut bytes = MAGIC.to_vec();
         bytes.extend_from_slice(&VERSION.to_le_bytes());
-        bytes.extend_from_slice(GUID.as_bytes());
+        bytes.extend_from_slice(self.version.token().as_bytes());
         bytes.extend_from_slice(&(content.len() as u64).to_le_bytes());
         bytes.extend_from_slice(&content);
         bytes.extend_from_slice(&crc32fast::hash(&bytes).to_le_bytes());
         Ok(bytes)
     }
 
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, DecodeError> {
+    /// A state of this version.
+    pub fn from_bytes(bytes: &[u8], version: Version) -> Result<Self, DecodeError> {
         if bytes.len() > LONGEST {
             return Err(DecodeError::Long);
         }
-        let content = content(bytes)?;
-        let (state, rest) = postcard::take_from_bytes::<Self>(content)?;
+        let content = content(bytes, version)?;
+        let (mut state, rest) = postcard::take_from_bytes::<Self>(content)?;
+        state.version = version;
         if !rest.is_empty() {
             return Err(DecodeError::Long);
         }
@@ -105,10 +114,26 @@ impl FmuState {
         self.block.check()?;
         // The stages of the block in the states of the call sequence.
         let stage = self.block.stage();
+        let stepping = match self.version {
+            Version::Two => STEP_COMPLETE,
+            Version::Three => STEP_MODE | EVENT_MODE | RECONFIGURATION_MODE,
+        };
         let is_consistent = match (self.interface, self.state) {
             (_, INSTANTIATED | INITIALIZATION_MODE) => stage == Stage::Configuring,
-            (Interface::CoSimulation, STEP_COMPLETE | TERMINATED)
-            | (Interface::ModelExchange, EVENT_MODE) => stage == Stage::Running,
+            (_, CONFIGURATION_MODE) => {
+                self.version == Version::Three && stage == Stage::Configuring
+            }
+            (Interface::CoSimulation, TERMINATED) | (Interface::ModelExchange, EVENT_MODE) => {
+                stage == Stage::Running
+            }
+            (Interface::CoSimulation, state)
+                if state.is_power_of_two() && state & stepping != 0 =>
+            {
+                stage == Stage::Running
+            }
+            (Interface::ModelExchange, RECONFIGURATION_MODE) => {
+                self.version == Version::Three && stage == Stage::Running
+            }
             (Interface::ModelExchange, CONTINUOUS_TIME_MODE) => stage == Stage::Integrating,
             (Interface::ModelExchange, TERMINATED) => stage != Stage::Configuring,
             _ => false,
@@ -121,7 +146,7 @@ impl FmuState {
 }
 
 /// The content between the head and the checksum, which are checked.
-fn content(bytes: &[u8]) -> Result<&[u8], DecodeError> {
+fn content(bytes: &[u8], fmi: Version) -> Result<&[u8], DecodeError> {
     let foreign = DecodeError::Foreign;
     let Some((head, _)) = bytes.split_first_chunk::<HEAD>() else {
         return Err(foreign);
@@ -136,10 +161,13 @@ fn content(bytes: &[u8]) -> Result<&[u8], DecodeError> {
         let version = version.try_into().map_err(|_| foreign)?;
         return Err(DecodeError::Version(u32::from_le_bytes(version)));
     }
-    if guid != GUID.as_bytes() {
-        let guid = String::from_utf8_lossy(guid);
-        let guid = guid.chars().filter(char::is_ascii_graphic).collect();
-        return Err(DecodeError::Guid(guid));
+    if guid != fmi.token().as_bytes() {
+        let given = String::from_utf8_lossy(guid);
+        return Err(DecodeError::Token {
+            given: given.chars().filter(char::is_ascii_graphic).collect(),
+            version: fmi,
+            name: fmi.token_name(),
+        });
     }
     let length = u64::from_le_bytes(length.try_into().map_err(|_| foreign)?);
     let length = length.saturating_add((HEAD + CHECKSUM) as u64);

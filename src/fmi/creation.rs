@@ -1,0 +1,149 @@
+//! Making and freeing instances.
+
+use super::{
+    arguments::text,
+    communication_time::Experiment,
+    handle,
+    instance::{Importer, Instance, Message},
+    legality::{Function, INSTANTIATED, Interface},
+    logger::{Callback, Category, Logger, Wanted, printable},
+    resource_location::resources,
+    types::{Component, Environment, Text},
+};
+use crate::{
+    block::{
+        PerVariable, RotorBlock,
+        variables::{INTEGERS, MODEL_IDENTIFIER, REALS},
+    },
+    host::{
+        float_environment::in_default_environment,
+        memory::{NO_MEMORY, Watch},
+    },
+};
+use std::{
+    panic::{AssertUnwindSafe, catch_unwind},
+    ptr,
+    sync::Once,
+};
+
+/// What an importer passes for a new instance.
+pub struct Request<'a> {
+    pub function: &'static Function,
+    pub instance_name: Text,
+    /// The GUID or token in the importer's modelDescription.xml, and what that is called.
+    pub token: Text,
+    pub token_name: &'a str,
+    pub resources: Text,
+    pub callback: Option<Callback>,
+    pub environment: Environment,
+    pub wanted: Wanted,
+    /// The interface that it asks for, or what is wrong with its request.
+    pub interface: Result<Interface, String>,
+    pub importer: Importer,
+}
+
+/// Makes an instance; null if that is refused, which is logged whatever messages are wanted.
+///
+/// # Safety
+/// The texts are null or C strings that live during the call.
+pub unsafe fn create(request: Request) -> Component {
+    keep_panics_silent();
+    let watch = Watch::begin();
+    let make = || {
+        // SAFETY: passed on from the caller.
+        let name = unsafe { text(request.instance_name, "instanceName") };
+        let name = name.ok().filter(|n| !n.is_empty());
+        let logger = Logger {
+            callback: request.callback,
+            environment: request.environment,
+            instance_name: printable(cut(name.unwrap_or(MODEL_IDENTIFIER))),
+            wanted: request.wanted,
+        };
+        // SAFETY: passed on from the caller.
+        let token = unsafe { text(request.token, request.token_name) };
+        let version = request.function.version;
+        let identified =
+            check_token(token, version.token_name(), version.token()).and(request.interface);
+        let interface = match identified {
+            Ok(interface) => interface,
+            Err(sentence) => return Err((logger, sentence)),
+        };
+        // SAFETY: passed on from the caller.
+        let location = unsafe { text(request.resources, "the location of the resources") };
+        let location = location.ok().filter(|text| text.len() <= LONGEST_TEXT);
+        let instance = Instance {
+            version,
+            interface,
+            state: INSTANTIATED,
+            block: RotorBlock::new(resources(location)),
+            logger,
+            strings: PerVariable::new(Default::default()),
+            experiment: Experiment::default(),
+            importer: request.importer,
+            references: Vec::with_capacity(REALS.len()),
+            integers: Vec::with_capacity(INTEGERS.len()),
+        };
+        Ok(instance)
+    };
+    let create = || {
+        let (logger, sentence) = match in_default_environment(make) {
+            Ok(instance) => {
+                let logger = instance.logger.clone();
+                let component = handle::create(instance);
+                if !watch.is_short() {
+                    return component;
+                }
+                // SAFETY: it was made here, and nobody else knows it.
+                unsafe { handle::free::<Instance>(component) };
+                (logger, NO_MEMORY.to_owned())
+            }
+            Err(refusal) => refusal,
+        };
+        let name = request.function.name;
+        logger.send(Category::Error, &format!("{name}: {sentence}"));
+        ptr::null_mut()
+    };
+    catch_unwind(AssertUnwindSafe(create)).unwrap_or(ptr::null_mut())
+}
+
+/// Bytes of the longest name of an instance and of the longest resource location.
+const LONGEST_TEXT: usize = 1 << 16;
+
+/// At most the first `LONGEST_TEXT` bytes of a name.
+fn cut(name: &str) -> &str {
+    let ends = (0..=LONGEST_TEXT.min(name.len())).rev();
+    ends.filter_map(|end| name.get(..end)).next().unwrap_or("")
+}
+
+/// An error if the importer asks for another FMU.
+fn check_token(given: Result<&str, Message>, name: &str, ours: &str) -> Result<(), String> {
+    let given = given.map_err(|message| match message {
+        Message::Error(text) | Message::Warning(text) => text,
+    })?;
+    if given.trim() != ours {
+        let given: String = given.chars().take(80).collect();
+        return Err(format!(
+            "the {name} {given:?} is not the binary's, {ours}; modelDescription.xml and binary must come from the same .fmu"
+        ));
+    }
+    Ok(())
+}
+
+/// Frees an instance.
+///
+/// # Safety
+/// `component` is null or an instance that is not used afterwards.
+pub unsafe fn free(component: Component) {
+    // A panic cannot be reported: the logger belongs to the instance.
+    let _ = catch_unwind(|| {
+        // SAFETY: passed on from the caller.
+        unsafe { handle::free::<Instance>(component) };
+    });
+}
+
+/// Rust's standard panic hook prints. This library logs panics instead and prints nothing. The hook
+/// belongs to this shared library; an importer written in Rust keeps its own.
+fn keep_panics_silent() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| std::panic::set_hook(Box::new(|_| {})));
+}

@@ -1,0 +1,151 @@
+//! Event Mode in Co-Simulation and in Model Exchange, for the one discrete output, `flowState`.
+
+use crate::support::{
+    Instance3,
+    instance3::{Creation3, OnUpdate, Update},
+};
+
+fn made(event_mode: bool, early_return: bool) -> Instance3 {
+    let creation = Creation3 {
+        event_mode,
+        early_return,
+        required: vec!["velocity"],
+        has_callback: true,
+        ..Creation3::default()
+    };
+    let instance = creation.make().unwrap();
+    // With states, so that steps go in parts.
+    instance.ok(instance.choose("models.inflow", 12));
+    instance.initialize();
+    if event_mode {
+        instance.update_discrete_states();
+        instance.enter_step_mode();
+    }
+    instance
+}
+
+/// The rotor descends ever faster, into the vortex ring.
+fn descend() -> Option<OnUpdate> {
+    Some(Box::new(|instance: &Instance3, update: Update| {
+        if update.asks_for_inputs {
+            let speed = -40.0 * update.time;
+            instance.ok(instance.set_floats(&["velocity"], &[0.0, 0.0, speed]));
+        }
+        None
+    }))
+}
+
+#[test]
+fn a_step_returns_early_at_an_event_and_the_new_value_comes_in_event_mode() {
+    let instance = made(true, true);
+    let (status, stepped) = instance.step_with(0.0, 0.2, descend());
+    instance.ok(status);
+    assert!(stepped.needs_event && stepped.is_early, "{stepped:?}");
+    assert!(stepped.time > 0.001 && stepped.time < 0.19, "{stepped:?}");
+    assert_eq!(
+        instance.choice("flowState"),
+        1,
+        "it changes in Event Mode only"
+    );
+    assert_eq!(instance.float("time"), stepped.time);
+    instance.enter_event_mode();
+    instance.update_discrete_states();
+    assert_eq!(instance.choice("flowState"), 2);
+    instance.enter_step_mode();
+    let (status, next) = instance.step_with(stepped.time, 0.01, descend());
+    instance.ok(status);
+    assert!(!next.is_early && !next.needs_event, "{next:?}");
+
+    // The event is where it is in steps that are a hundredth as long.
+    let fine = made(true, false);
+    let mut time = 0.0;
+    loop {
+        let (status, stepped) = fine.step_with(time, 1e-4, descend());
+        fine.ok(status);
+        time = stepped.time;
+        if stepped.needs_event {
+            break;
+        }
+    }
+    assert!(
+        (time - stepped.time).abs() < 5e-4,
+        "{time} {}",
+        stepped.time
+    );
+}
+
+#[test]
+fn without_early_return_the_event_is_told_at_the_end_of_the_step() {
+    let instance = made(true, false);
+    let (status, stepped) = instance.step_with(0.0, 0.2, descend());
+    instance.ok(status);
+    assert!(stepped.needs_event && !stepped.is_early);
+    assert_eq!(stepped.time, 0.2);
+    assert_eq!(instance.choice("flowState"), 1);
+    // An importer that does not handle it gets on, and is told again.
+    let again = instance.step(0.2, 0.01);
+    assert!(again.needs_event && !again.is_early);
+}
+
+#[test]
+fn without_event_mode_the_value_changes_by_itself() {
+    let instance = made(false, true);
+    let (status, stepped) = instance.step_with(0.0, 0.2, descend());
+    instance.ok(status);
+    assert!(!stepped.needs_event && !stepped.is_early);
+    assert!(instance.choice("flowState") > 1);
+    // SAFETY: the instance lives.
+    let status = unsafe { (instance.functions.fmi3EnterEventMode)(instance.pointer) };
+    assert!(instance.refused(status).contains("eventModeUsed"));
+}
+
+#[test]
+fn in_event_mode_outputs_follow_the_inputs() {
+    let instance = made(true, false);
+    let before = instance.float("thrust");
+    instance.set("collective", 0.2);
+    assert_eq!(instance.float("thrust"), before, "that of the last step");
+    instance.enter_event_mode();
+    assert!(instance.float("thrust") > before);
+    instance.update_discrete_states();
+    instance.enter_step_mode();
+}
+
+#[test]
+fn a_state_with_a_held_value_keeps_it_until_the_event() {
+    let instance = made(true, false);
+    instance.step_with(0.0, 0.2, descend());
+    let bytes = instance.serialized();
+    let other = made(true, false);
+    other.ok(other.continue_from(&bytes));
+    assert_eq!(other.choice("flowState"), 1);
+    assert!(other.step(0.2, 0.01).needs_event);
+    other.enter_event_mode();
+    other.update_discrete_states();
+    assert!(other.choice("flowState") > 1);
+}
+
+#[test]
+fn model_exchange_asks_for_an_event_after_a_step_and_gives_the_new_value_in_event_mode() {
+    let instance = Instance3::for_model_exchange();
+    instance.initialize();
+    instance.update_discrete_states();
+    instance.enter_continuous_time();
+    let completed = || {
+        let (mut event, mut end) = (9, 9);
+        let complete = instance.functions.fmi3CompletedIntegratorStep;
+        // SAFETY: the instance lives.
+        instance.ok(unsafe { complete(instance.pointer, 1, &mut event, &mut end) });
+        assert_eq!(end, 0);
+        event
+    };
+    assert_eq!(completed(), 0);
+    instance.ok(instance.set_floats(&["velocity"], &[0.0, 0.0, -5.0]));
+    assert_eq!(completed(), 1);
+    assert_eq!(instance.choice("flowState"), 1);
+    instance.enter_event_mode();
+    instance.update_discrete_states();
+    assert!(instance.choice("flowState") > 1);
+    instance.enter_continuous_time();
+    assert_eq!(completed(), 0);
+}
