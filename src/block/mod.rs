@@ -4,6 +4,7 @@
 //! * `variables`, `references`, `values`: the table of variables, and a value for each of them
 //! * `setting`, `settings`, `limited_inputs`: values into the block, one by one or as a text of
 //!   assignments
+//! * `rotor_file`, `from_file`: values that a rotor file gives
 //! * `setup`, `airfoils`, `flight_condition`, `ramp`: from values to a rotor and its operating
 //!   point
 //! * `computation`, `outputs`: the rotor's response, written to the outputs
@@ -23,6 +24,7 @@ mod computation;
 mod derivative;
 mod files;
 mod flight_condition;
+mod from_file;
 mod integrate;
 mod known_rates;
 mod limited_inputs;
@@ -33,6 +35,7 @@ mod outside_data;
 mod plausibility;
 mod ramp;
 mod references;
+mod rotor_file;
 mod setting;
 mod settings;
 mod setup;
@@ -108,6 +111,8 @@ enum Fresh {
 #[derive(Debug)]
 pub struct RotorBlock {
     values: Values,
+    /// The values of a rotor of which nothing is set.
+    defaults: Box<Values>,
     stage: Stage,
     resources: PathBuf,
     /// None until the rotor is needed, and after a change of a parameter that defines it.
@@ -143,6 +148,7 @@ impl RotorBlock {
         let values = Values::default();
         Self {
             flow_state: values.integers[integer::FLOW_STATE],
+            defaults: Box::new(values.clone()),
             values,
             stage: Stage::Configuring,
             resources,

@@ -5,6 +5,7 @@ use super::{
     airfoils::read_airfoils,
     files::{FileHash, ReadFile},
     location::resolve,
+    rotor_file::{self, Taken},
     values::Values,
     variables::{
         BladesModel, CompressibilityModel, DescentModel, GroundEffectModel, InflowModel,
@@ -17,7 +18,9 @@ use rotor::{
     airfoil::{AirfoilError, Lift, SectionModel},
     compressibility::Compressibility,
     flapping::{BladeMass, Freedom, Hinge, Stops},
-    geometry::{self, BladeInertia, Elements, Geometry, GeometryError, RotorFileError},
+    geometry::{
+        self, BladeInertia, Elements, Geometry, GeometryError, RotorDefinition, RotorFileError,
+    },
     inflow::{Descent, ElementInflow, GroundEffect, Inflow, Skew},
     state::MAX_FLAPPING_BLADES,
     tip_loss::TipLoss,
@@ -30,11 +33,13 @@ use thiserror::Error;
 pub enum SetupError {
     #[error("airfoil.file = {name:?}: {cause}")]
     Airfoil { name: String, cause: AirfoilError },
-    #[error("geometry.file = {name:?}: airfoil {airfoil:?} of a station: {cause}")]
+    #[error("geometry.file = {name:?}: airfoil {airfoil:?} of a station: {cause}{places}")]
     StationAirfoil {
         name: String,
         airfoil: String,
         cause: AirfoilError,
+        /// Where else it was looked for, as the end of the sentence.
+        places: String,
     },
     #[error(
         "models.lift = slopesByReynolds, but the airfoil file {airfoil:?} ({parameter}) has no lift slopes; set {parameter} to a Modelica CombiTable file such as airfoils/naca0015.txt, or models.lift to table or twoPi"
@@ -45,6 +50,14 @@ pub enum SetupError {
     },
     #[error("geometry.file = {name:?}: {cause}")]
     RotorFile { name: String, cause: RotorFileError },
+    #[error("geometry.file = {name:?}: rotor file {file}{place}: {problem}")]
+    RotorFileValue {
+        name: String,
+        file: String,
+        /// The line, if the entry has one.
+        place: String,
+        problem: String,
+    },
     #[error("the geometry parameters describe no rotor: {0}; change them or set geometry.file")]
     Geometry(GeometryError),
     #[error(
@@ -75,10 +88,17 @@ pub enum SetupError {
     Choice { name: &'static str, value: i32 },
 }
 
-/// The rotor that the parameters describe, and every file that was read.
-pub fn rotor(values: &Values, resources: &Path) -> Result<(Rotor, Vec<ReadFile>), SetupError> {
+/// The rotor that the parameters describe, and every file that was read, a rotor file first. With
+/// `defaults`, which are the values of a rotor of which nothing is set, `values` gets what the rotor
+/// file gives for variables that the importer has not set.
+pub fn rotor(
+    values: &mut Values,
+    defaults: Option<&Values>,
+    resources: &Path,
+) -> Result<(Rotor, Vec<ReadFile>), SetupError> {
     let mut files = Vec::new();
-    let geometry = geometry(values, resources, &mut files)?;
+    let geometry = geometry(values, defaults, resources, &mut files)?;
+    let values = &*values;
     let section = section(values)?;
     let airfoils = read_airfoils(values, &geometry, section.lift, resources, &mut files)?;
     // The range of the variable keeps the number of elements positive.
@@ -90,7 +110,8 @@ pub fn rotor(values: &Values, resources: &Path) -> Result<(Rotor, Vec<ReadFile>)
 
 /// The geometry in the rotor file or, without one, that of the geometry parameters.
 fn geometry(
-    values: &Values,
+    values: &mut Values,
+    defaults: Option<&Values>,
     resources: &Path,
     files: &mut Vec<ReadFile>,
 ) -> Result<Geometry, SetupError> {
@@ -98,16 +119,22 @@ fn geometry(
     if !name.is_empty() {
         let path = resolve(resources, "rotors", name);
         let name = name.to_owned();
-        let (geometry, hash) = match Geometry::read_with_hash(&path) {
+        let definition = match RotorDefinition::read(&path) {
             Ok(read) => read,
             Err(cause) => return Err(SetupError::RotorFile { name, cause }),
         };
+        let taken = match defaults {
+            Some(defaults) => rotor_file::apply(values, defaults, &definition, &path)?,
+            None => Taken::default(),
+        };
+        let hash = definition.hash;
         files.push(ReadFile {
             content: FileHash { name, hash },
             path,
             what: "read the rotor's geometry".to_owned(),
+            details: taken.note(),
         });
-        return Ok(geometry);
+        return Ok(definition.geometry);
     }
     let mut geometry = Geometry::linear(
         values.integers[integer::GEOMETRY__NUMBER_OF_BLADES].max(0) as u32,
