@@ -76,6 +76,7 @@ impl RotorBlock {
         let start = Initialized {
             rotor: &*self.rotor()?,
             values: &self.values,
+            defaults: &self.defaults,
             point: &FlightCondition::new(&self.values)?.point,
             shipped: &|| airfoils::shipped(&self.resources),
         };

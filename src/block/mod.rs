@@ -5,6 +5,7 @@
 //! * `setting`, `settings`, `limited_inputs`: values into the block, one by one or as a text of
 //!   assignments
 //! * `rotor_file`, `from_file`: values that a rotor file gives
+//! * `packaged`: the defaults of an .fmu that was made for one rotor
 //! * `setup`, `airfoils`, `flight_condition`, `ramp`: from values to a rotor and its operating
 //!   point
 //! * `computation`, `outputs`: the rotor's response, written to the outputs
@@ -32,6 +33,7 @@ mod location;
 mod model_exchange;
 mod outputs;
 mod outside_data;
+pub mod packaged;
 mod plausibility;
 mod ramp;
 mod references;
@@ -145,7 +147,7 @@ pub struct RotorBlock {
 impl RotorBlock {
     /// A rotor with default values. `resources` is the folder of the FMU's resources.
     pub fn new(resources: PathBuf) -> Self {
-        let values = Values::default();
+        let values = packaged::defaults(&resources);
         Self {
             flow_state: values.integers[integer::FLOW_STATE],
             defaults: Box::new(values.clone()),

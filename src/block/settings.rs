@@ -82,6 +82,13 @@ pub fn names(text: &str) -> impl Iterator<Item = &str> {
         .map(|assignment| assignment.name)
 }
 
+/// The value that a text of assignments gives a name.
+pub fn value<'a>(text: &'a str, name: &str) -> Option<&'a str> {
+    let mut made = assignments(text).flatten();
+    made.find(|assignment| assignment.name == name)
+        .map(|assignment| assignment.value)
+}
+
 /// A warning for each assignment in `settings` that no longer holds, because its parameter was set
 /// directly afterwards.
 pub fn replaced(values: &Values) -> Vec<String> {

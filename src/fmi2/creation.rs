@@ -14,6 +14,7 @@ use super::{
 };
 use crate::block::{
     PerVariable, RotorBlock,
+    packaged::Packaged,
     variables::{GUID, MODEL_IDENTIFIER},
 };
 use crate::host::{
@@ -22,6 +23,7 @@ use crate::host::{
 };
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
+    path::Path,
     ptr,
     sync::Once,
 };
@@ -54,18 +56,19 @@ pub unsafe extern "C" fn fmi2Instantiate(
             chosen: None,
         };
         // SAFETY: passed on from the caller.
+        let location = unsafe { text(fmuResourceLocation, "fmuResourceLocation") };
+        let location = location.ok().filter(|text| text.len() <= LONGEST_TEXT);
+        let resources = resources(location);
+        // SAFETY: passed on from the caller.
         let guid = unsafe { text(fmuGUID, "fmuGUID") };
-        let interface = match identity(fmuType, guid) {
+        let interface = match identity(fmuType, guid, &resources) {
             Ok(interface) => interface,
             Err(sentence) => return Err((logger, sentence)),
         };
-        // SAFETY: passed on from the caller.
-        let location = unsafe { text(fmuResourceLocation, "fmuResourceLocation") };
-        let location = location.ok().filter(|text| text.len() <= LONGEST_TEXT);
         let instance = Instance {
             interface,
             state: INSTANTIATED,
-            block: RotorBlock::new(resources(location)),
+            block: RotorBlock::new(resources),
             logger,
             strings: PerVariable::new(Default::default()),
             experiment: Experiment::default(),
@@ -103,14 +106,24 @@ fn cut(name: &str) -> &str {
 }
 
 /// The interface that the importer asks for; an error if it asks for another FMU.
-fn identity(kind: fmi2Enumeration, guid: Result<&str, Message>) -> Result<Interface, String> {
+fn identity(
+    kind: fmi2Enumeration,
+    guid: Result<&str, Message>,
+    resources: &Path,
+) -> Result<Interface, String> {
     let guid = guid.map_err(|message| match message {
         Message::Error(text) | Message::Warning(text) => text,
     })?;
-    if guid.trim() != GUID {
+    // An .fmu that was made for one rotor has a GUID of its own, since its start values differ.
+    let packaged = Packaged::read(resources);
+    let of_this_library = packaged
+        .as_ref()
+        .filter(|packaged| packaged.library == GUID);
+    let own = of_this_library.map_or(GUID, |packaged| &packaged.guid);
+    if guid.trim() != own {
         let guid: String = guid.chars().take(80).collect();
         return Err(format!(
-            "the GUID {guid:?} is not the binary's, {GUID}; modelDescription.xml and binary must come from the same .fmu"
+            "the GUID {guid:?} is not the binary's, {own}; modelDescription.xml and binary must come from the same .fmu"
         ));
     }
     Interface::from_type(kind).ok_or_else(|| {

@@ -9,6 +9,7 @@ mod package;
 mod process;
 mod progress;
 mod python;
+mod rotor_file;
 mod scripts;
 mod stop;
 mod summary;
@@ -46,7 +47,7 @@ struct Arguments {
 enum Command {
     /// Make the .fmu only
     Package {
-        /// The .fmu to write [default: target/fmu/HelicopterRotor.fmu]
+        /// The .fmu to write [default: target/fmu/HelicopterRotor.fmu, or that of --name]
         ///
         /// A regular file, old or new: folders, devices and FIFOs are refused. Of a symbolic link
         /// the target is written, also if it does not exist yet, and the link stays.
@@ -54,7 +55,13 @@ enum Command {
         out: Option<PathBuf>,
         #[command(flatten)]
         selection: package::Selection,
+        #[command(flatten)]
+        rotor: package::OwnRotor,
     },
+    /// Show the rotor in a file: table, drawing, solidity, Lock number, hover
+    Check(rotor_file::Check),
+    /// Write a commented rotor file
+    New(rotor_file::New),
     /// Run the examples in fmu-examples/: tables and pictures of systems that contain the rotor
     Examples {
         /// Run only these
@@ -150,13 +157,23 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
     let library = || library.map_or_else(|| package::library::build(&target), Ok);
     let default_fmu = target.join("fmu").join("HelicopterRotor.fmu");
     match command {
-        Some(Command::Package { out, selection }) => {
-            let out = out.unwrap_or(default_fmu);
+        Some(Command::Package {
+            out,
+            selection,
+            rotor,
+        }) => {
+            let own = rotor.read(&package::resources())?;
+            let name = own.as_ref().map(|own| format!("{}.fmu", own.name));
+            let default = name.map_or(default_fmu, |name| target.join("fmu").join(name));
+            let out = out.unwrap_or(default);
             // Refused before the library is built.
             draft::place_of_file(&out)?;
-            package::write(&out, &selection.contents(given, &target)?)?;
+            let contents = selection.contents(given, &target)?;
+            package::write_for(&out, &contents, own.as_ref())?;
             output::print(format_args!("Made {}", out.display()))
         }
+        Some(Command::Check(check)) => check.run(),
+        Some(Command::New(new)) => new.run(),
         Some(Command::Examples { names, out }) => {
             let out = out.unwrap_or_else(|| target.join("examples"));
             let fmu = out.join("HelicopterRotor.fmu");

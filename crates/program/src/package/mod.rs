@@ -6,14 +6,17 @@
 //! * `cross.rs`: building it for other machines
 //! * `binary.rs`: checking a built library
 //! * `documentation.rs`: the documentation page
+//! * `own_rotor.rs`: what makes an .fmu that of one rotor
 
 mod binary;
 mod cross;
 mod documentation;
 pub mod library;
+mod own_rotor;
 mod platform;
 mod selection;
 
+pub use own_rotor::{Own, OwnRotor};
 pub use selection::{Contents, Selection};
 
 use crate::{
@@ -21,7 +24,10 @@ use crate::{
     draft::{Draft, place_of_file},
     failed, files, sources,
 };
-use helicopter_rotor::{block::variables::MODEL_IDENTIFIER, description};
+use helicopter_rotor::{
+    block::{packaged, variables::MODEL_IDENTIFIER},
+    description,
+};
 use std::{
     borrow::Cow,
     fs::File,
@@ -50,16 +56,27 @@ fn model_description() -> PathBuf {
     sources().join("modelDescription")
 }
 
-/// Writes the .fmu with these libraries in it. After an error there is no incomplete `file`.
+/// Writes the general .fmu with these libraries in it. After an error there is no incomplete
+/// `file`.
 pub fn write(file: &Path, contents: &Contents) -> Result<(), Failure> {
+    write_for(file, contents, None)
+}
+
+/// The same for one rotor, if there is one.
+pub fn write_for(file: &Path, contents: &Contents, own: Option<&Own>) -> Result<(), Failure> {
     let draft = Draft::new(place_of_file(file)?)?;
     let out =
         File::create(draft.path()).map_err(failed(format!("cannot write {}", file.display())))?;
-    archive(out, contents)?;
+    archive(out, contents, own)?;
     draft.publish()
 }
 
-fn archive(out: impl Write + Seek, contents: &Contents) -> Result<(), Failure> {
+/// The folder of the resources of the general FMU.
+pub fn resources() -> PathBuf {
+    model_description().join("resources")
+}
+
+fn archive(out: impl Write + Seek, contents: &Contents, own: Option<&Own>) -> Result<(), Failure> {
     let mut zip = ZipWriter::new(out);
     // A fixed date and mode: the same content gives the same bytes.
     let options = SimpleFileOptions::default()
@@ -73,11 +90,20 @@ fn archive(out: impl Write + Seek, contents: &Contents) -> Result<(), Failure> {
             .map_err(failed(format!("cannot add {name} to the archive")))
     };
     let read = |relative: &str| files::read(&model_description().join(relative));
-    add("modelDescription.xml", xml(contents)?.as_bytes())?;
+    let mut xml = xml(contents)?;
+    let mut resources = Vec::new();
+    if let Some(own) = own {
+        let (own_xml, text) = own.describe(&xml)?;
+        xml = Cow::Owned(own_xml);
+        resources.push((packaged::FILE.to_owned(), text.into_bytes()));
+        resources.extend(own.files.iter().cloned());
+    }
+    add("modelDescription.xml", xml.as_bytes())?;
+    let identifier = own.map_or(MODEL_IDENTIFIER, |own| &own.name);
     for (platform, binary) in &contents.binaries {
         let (folder, suffix) = (platform.folder(), platform.suffix());
         add(
-            &format!("binaries/{folder}/{MODEL_IDENTIFIER}{suffix}"),
+            &format!("binaries/{folder}/{identifier}{suffix}"),
             &binary.0,
         )?;
     }
@@ -87,9 +113,26 @@ fn archive(out: impl Write + Seek, contents: &Contents) -> Result<(), Failure> {
         add(name, &read(name)?)?;
     }
     for (folder, name_in_archive) in FOLDERS {
+        // The reference flights are those of the general FMU's defaults.
+        if own.is_some() && folder == "extra" {
+            continue;
+        }
         for relative in files::names_below(&model_description().join(folder))? {
             let content = read(&format!("{folder}/{relative}"))?;
-            add(&format!("{name_in_archive}/{relative}"), &content)?;
+            let name = format!("{name_in_archive}/{relative}");
+            let is_replaced = resources
+                .iter()
+                .any(|(own, _)| name == format!("resources/{own}"));
+            if !is_replaced {
+                add(&name, &content)?;
+            }
+        }
+    }
+    let mut added: Vec<&str> = Vec::new();
+    for (name, content) in &resources {
+        if !added.contains(&name.as_str()) {
+            add(&format!("resources/{name}"), content)?;
+            added.push(name);
         }
     }
     zip.finish().map_err(failed("cannot finish the archive"))?;

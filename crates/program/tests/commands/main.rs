@@ -14,6 +14,7 @@ mod package;
 mod package_out;
 mod platforms;
 mod reference;
+mod rotor_file;
 mod support;
 mod tables;
 mod terminal;

@@ -241,6 +241,23 @@ impl Geometry {
         f64::from(self.blades) * self.area(self.cutout(), 1.0) / disc
     }
 
+    /// Solidity of rectangular blades, from the shaft to the tip, with the same thrust at one lift
+    /// coefficient, which is proportional to the integral of c r^2.
+    pub fn thrust_weighted_solidity(&self) -> f64 {
+        let mut sum = 0.0;
+        for pair in self.stations.windows(2) {
+            let (a, b) = (&pair[0], &pair[1]);
+            let middle = 0.5 * (a.radius_ratio + b.radius_ratio);
+            let weight = |r: f64, chord: f64| chord * r * r;
+            // Simpson's rule is exact for a cubic.
+            sum += (b.radius_ratio - a.radius_ratio) / 6.0
+                * (weight(a.radius_ratio, a.chord)
+                    + 4.0 * weight(middle, 0.5 * (a.chord + b.chord))
+                    + weight(b.radius_ratio, b.chord));
+        }
+        3.0 * sum * f64::from(self.blades) / (PI * self.radius)
+    }
+
     /// A quantity at a radius: linear between the stations; inside the cutout it follows the line
     /// of the innermost interval.
     fn interpolate(&self, radius_ratio: f64, quantity: impl Fn(&Station) -> f64) -> f64 {
