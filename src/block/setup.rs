@@ -8,7 +8,7 @@ use super::{
     rotor_file::{self, Taken},
     values::Values,
     variables::{
-        BladesModel, CompressibilityModel, DescentModel, GroundEffectModel, InflowModel,
+        BladesModel, CompressibilityModel, DescentModel, GroundEffectModel, HubModel, InflowModel,
         Initialization, IntegerRef, LiftModel, Rotation, TipLossModel, boolean, integer, real,
         string,
     },
@@ -22,6 +22,7 @@ use rotor::{
         self, BladeInertia, Elements, Geometry, GeometryError, RotorDefinition, RotorFileError,
     },
     inflow::{Descent, ElementInflow, GroundEffect, Inflow, Skew},
+    seesaw::Seesaw,
     state::MAX_FLAPPING_BLADES,
     tip_loss::TipLoss,
 };
@@ -84,6 +85,14 @@ pub enum SetupError {
         lowest: f64,
         highest: f64,
     },
+    #[error(
+        "flapping.hub = teetering with {blades} blades: a seesaw has two; set two blades, or flapping.hub to hinged"
+    )]
+    SeesawBlades { blades: u32 },
+    #[error(
+        "flapping.hub = teetering with flapping.hingeOffset = {offset}: the hinge of a seesaw is at the shaft; set flapping.hingeOffset to 0, or flapping.hub to hinged"
+    )]
+    SeesawOffset { offset: f64 },
     #[error("{name} = {value}, which is not the number of a choice; set one of its choices")]
     Choice { name: &'static str, value: i32 },
 }
@@ -168,6 +177,7 @@ fn models(
     let blades = blades(values)?;
     Ok(Models {
         hinge: hinge(values, geometry, &inflow, blades)?,
+        seesaw: seesaw(values, geometry)?,
         inflow,
         descent: descent(values)?,
         ground_effect,
@@ -319,6 +329,26 @@ fn hinge(
         mass,
         freedom,
     })
+}
+
+/// The seesaw of blades that flap as one. Fails if the rotor cannot have one.
+fn seesaw(values: &Values, geometry: &Geometry) -> Result<Option<Seesaw>, SetupError> {
+    let hub = choice(values, integer::FLAPPING__HUB, HubModel::from_integer)?;
+    match hub {
+        HubModel::Hinged => return Ok(None),
+        HubModel::Teetering if !values.booleans[boolean::FLAPPING__ENABLED] => return Ok(None),
+        HubModel::Teetering => {}
+    }
+    let blades = geometry.blades;
+    if blades != 2 {
+        return Err(SetupError::SeesawBlades { blades });
+    }
+    let offset = values.reals[real::FLAPPING__HINGE_OFFSET];
+    if offset != 0.0 {
+        return Err(SetupError::SeesawOffset { offset });
+    }
+    let undersling = values.reals[real::FLAPPING__UNDERSLING];
+    Ok(Some(Seesaw { undersling }))
 }
 
 /// The moment of inertia of one blade about its hinge, kg.m2: from the parameters, otherwise from

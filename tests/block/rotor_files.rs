@@ -378,3 +378,99 @@ fn a_step_is_the_limit_of_stations_that_come_together() {
     let log = events(&mut block);
     assert!(!log.contains("is too few"), "{log}");
 }
+
+/// A light helicopter's two blades: precone and undersling built in.
+#[test]
+fn a_teetering_rotor_flaps_as_one_body_and_leaves_the_hub_without_moment() {
+    let teetering = ROTOR
+        .replace("numberOfBlades = 3", "numberOfBlades = 2")
+        .replace("hub = \"hinged\"", "hub = \"teetering\"\nundersling = 0.03")
+        .replace("hingeOffset = 0.05\n", "")
+        .replace("delta3 = 10.0\n", "")
+        .replace("mode = \"torque\"\n", "");
+    let mut block = with_file("teetering", &teetering);
+    set(
+        &mut block,
+        real::VELOCITY_1,
+        0.2 * 400.0 * std::f64::consts::PI / 30.0 * 2.0,
+    );
+    block.start().unwrap();
+    let (mut moment, mut thrust, mut largest) = ([0.0; 2], 0.0, 0.0_f64);
+    let steps = 60;
+    for _ in 0..steps {
+        block.step(60.0 / 400.0 / f64::from(steps)).unwrap();
+        let angle = real::STATE__FLAP_ANGLE.map(|r| get(&block, r));
+        let sum = angle[0] + angle[1] - 2.0 * get(&block, real::FLAPPING__PRECONE);
+        assert!(sum.abs() < 1e-12, "{sum}");
+        largest = largest.max((angle[0] - angle[1]) / 2.0);
+        for (sum, r) in moment
+            .iter_mut()
+            .zip([real::HUB_MOMENT_1, real::HUB_MOMENT_2])
+        {
+            *sum += get(&block, r) / f64::from(steps);
+        }
+        thrust += get(&block, real::THRUST) / f64::from(steps);
+    }
+    assert!(largest > 0.01, "{largest}");
+    // What is left is the torque of the drag about the shaft, which the tip path leans.
+    let torque = get(&block, real::TORQUE);
+    for m in moment {
+        assert!(
+            m.abs() < 0.1 * torque && m.abs() < 1e-3 * thrust * 2.0,
+            "{moment:?} {torque}"
+        );
+    }
+    for (from, to, part) in [
+        (
+            "numberOfBlades = 2",
+            "numberOfBlades = 3",
+            "teetering with 3 blades: a seesaw has two",
+        ),
+        (
+            "undersling",
+            "hingeOffset = 0.1\nundersling",
+            "hingeOffset = 0.1: the hinge of a seesaw",
+        ),
+    ] {
+        let mut block = with_file("teetering-wrong", &teetering.replace(from, to));
+        let error = block.update().unwrap_err().to_string();
+        assert!(error.contains(part), "{error}");
+    }
+}
+
+/// Differences of the whole simulation against exact derivatives, the start included.
+#[test]
+fn the_derivatives_of_a_teetering_rotor_are_those_of_its_outputs() {
+    let text = ROTOR
+        .replace("numberOfBlades = 3", "numberOfBlades = 2")
+        .replace("hub = \"hinged\"", "hub = \"teetering\"\nundersling = 0.03")
+        .replace("hingeOffset = 0.05\n", "")
+        .replace("mode = \"torque\"\n", "");
+    let outputs = [
+        real::THRUST,
+        real::LONGITUDINAL_FLAPPING,
+        real::STATE__FLAP_ANGLE[0],
+    ];
+    let at = |collective: f64| {
+        let mut block = with_file("teetering-derivative", &text);
+        set(&mut block, real::VELOCITY_1, 12.0);
+        set(&mut block, real::COLLECTIVE, collective);
+        block.update().unwrap();
+        block
+    };
+    let collective = 0.1;
+    let step = 1e-5;
+    let exact: Vec<f64> = at(collective)
+        .directional_derivative(&outputs, &[real::COLLECTIVE], &[1.0])
+        .unwrap()
+        .collect();
+    let (low, high) = (at(collective - step), at(collective + step));
+    for (output, exact) in outputs.into_iter().zip(exact) {
+        let difference = (get(&high, output) - get(&low, output)) / (2.0 * step);
+        let name = output.variable().name;
+        assert!(
+            (difference / exact - 1.0).abs() < 1e-3,
+            "{name}: {difference} {exact}"
+        );
+    }
+}

@@ -5,7 +5,7 @@ use crate::{Failure, failed, output, sources};
 use clap::Args;
 use helicopter_rotor::block::{
     Note, RotorBlock,
-    variables::{RealRef, boolean, real, string},
+    variables::{HubModel, RealRef, boolean, integer, real, string},
 };
 use rotor::geometry::{Geometry, Rotation, RotorDefinition, lock_number};
 use std::path::{Path, PathBuf};
@@ -151,9 +151,17 @@ fn numbers(definition: &RotorDefinition, block: &RotorBlock) -> Vec<String> {
     let flaps = values.booleans[boolean::FLAPPING__ENABLED];
     let deg = |r: RealRef| values.reals[r].to_degrees();
     lines.push(if flaps {
+        let is_seesaw = values.integers[integer::FLAPPING__HUB] == HubModel::Teetering as i32;
+        let hub = if is_seesaw {
+            format!(
+                "teetering, undersling {} m",
+                values.reals[real::FLAPPING__UNDERSLING]
+            )
+        } else {
+            format!("hinge offset {} R", values.reals[real::FLAPPING__HINGE_OFFSET])
+        };
         format!(
-            "Hub: hinge offset {} R, spring {:.1} N.m/rad, precone {:.2} deg, delta3 {:.1} deg, stops {:.1} and {:.1} deg",
-            values.reals[real::FLAPPING__HINGE_OFFSET],
+            "Hub: {hub}, spring {:.1} N.m/rad, precone {:.2} deg, delta3 {:.1} deg, stops {:.1} and {:.1} deg",
             values.reals[real::FLAPPING__HINGE_SPRING],
             deg(real::FLAPPING__PRECONE),
             deg(real::FLAPPING__DELTA3),

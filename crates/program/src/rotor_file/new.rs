@@ -49,7 +49,7 @@ pub struct New {
     /// Nominal collective, deg
     #[arg(long, allow_hyphen_values = true)]
     collective: Option<f64>,
-    /// Hub: rigid, hinged or hingeless
+    /// Hub: rigid, hinged, teetering or hingeless
     #[arg(long)]
     hub: Option<String>,
     /// Lock number of the blades
@@ -107,7 +107,11 @@ impl New {
         // A tip speed of 200 m/s.
         let rpm = ask.value("Nominal speed, rev/min", self.rpm, rounded(1910.0 / radius))?;
         let collective = ask.value("Nominal collective, deg", self.collective, 8.0)?;
-        let hub = ask.value("Hub: rigid, hinged or hingeless", self.hub, "rigid".into())?;
+        let hub = ask.value(
+            "Hub: rigid, hinged, teetering or hingeless",
+            self.hub,
+            "rigid".into(),
+        )?;
         let lock_number = if hub == "rigid" && self.lock_number.is_none() {
             USUAL_LOCK_NUMBER
         } else {
@@ -169,7 +173,7 @@ station = [
         text += "]\n\n[flapping]\n";
         text += &entry(
             format!("hub = \"{}\"", quoted(&hub)),
-            "rigid, hinged or hingeless",
+            "rigid, hinged, teetering or hingeless",
         );
         text += &entry(
             format!("lockNumber = {lock_number:?}"),

@@ -14,7 +14,7 @@
 //!     { r = 1.0, chord = 0.05, twist = -8.0, airfoil = "airfoils/naca0015.polar" },
 //! ]
 //! [flapping]
-//! hub = "hinged"                 # or "hingeless", "rigid"
+//! hub = "hinged"                 # or "teetering", "hingeless", "rigid"
 //! inertia = 0.04                 # of one blade about its hinge, kg.m2; or lockNumber
 //! hingeOffset = 0.05             # r/R
 //! [models]

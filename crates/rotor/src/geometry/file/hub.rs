@@ -11,7 +11,7 @@ use serde::Deserialize;
 use toml::Spanned;
 
 /// The kinds of hubs.
-const HUBS: [&str; 3] = ["hinged", "hingeless", "rigid"];
+const HUBS: [&str; 4] = ["hinged", "teetering", "hingeless", "rigid"];
 
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "camelCase")]
@@ -23,6 +23,7 @@ pub(super) struct FileFlapping {
     hinge_spring: Option<Spanned<f64>>,
     flap_frequency: Option<Spanned<f64>>,
     precone: Option<Spanned<f64>>,
+    undersling: Option<Spanned<f64>>,
     delta3: Option<Spanned<f64>>,
     lowest_angle: Option<Spanned<f64>>,
     highest_angle: Option<Spanned<f64>>,
@@ -71,11 +72,16 @@ impl FileFlapping {
             let at = line(hub.span().start);
             let flaps = GivenValue::Boolean(kind != "rigid");
             given.push(Given::new("flapping.enabled", flaps, at));
+            if kind == "teetering" {
+                let hub = GivenValue::Text(kind.to_owned());
+                given.push(Given::new("flapping.hub", hub, at));
+            }
         }
         for (name, value) in [
             ("flapping.hingeOffset", &self.hinge_offset),
             ("flapping.hingeSpring", &self.hinge_spring),
             ("flapping.precone", &self.precone),
+            ("flapping.undersling", &self.undersling),
             ("flapping.delta3", &self.delta3),
             ("flapping.lowestAngle", &self.lowest_angle),
             ("flapping.highestAngle", &self.highest_angle),
