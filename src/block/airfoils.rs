@@ -59,9 +59,8 @@ pub fn read_airfoils(
             if has_own {
                 SetupError::StationAirfoil {
                     name: values.strings[string::GEOMETRY__FILE].clone(),
-                    airfoil: name.to_owned(),
+                    airfoil: format!("{name:?} of a station{}", place(folder, &path)),
                     cause,
-                    places: places(folder, &path),
                 }
             } else {
                 SetupError::Airfoil {
@@ -94,11 +93,14 @@ pub fn read_airfoils(
     Ok(airfoils)
 }
 
-/// Where else an airfoil file was looked for that is not at `path`, as the end of a sentence.
-fn places(folder: Option<&Path>, path: &Path) -> String {
+/// Where an airfoil file that does not exist was looked for besides `path`, as a part of a sentence.
+fn place(folder: Option<&Path>, path: &Path) -> String {
     match folder {
         Some(folder) if !path.is_file() => {
-            format!("; nor is it beside the rotor file, in {}", folder.display())
+            format!(
+                ", which is not beside the rotor file in {} either",
+                folder.display()
+            )
         }
         _ => String::new(),
     }

@@ -67,9 +67,7 @@ pub fn apply(
             };
             SetupError::RotorFileValue {
                 name: values.strings[string::GEOMETRY__FILE].clone(),
-                file: path.display().to_string(),
-                place,
-                problem,
+                problem: format!("{}{place}: {problem}", path.display()),
             }
         })?;
         match note {

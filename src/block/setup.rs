@@ -34,13 +34,12 @@ use thiserror::Error;
 pub enum SetupError {
     #[error("airfoil.file = {name:?}: {cause}")]
     Airfoil { name: String, cause: AirfoilError },
-    #[error("geometry.file = {name:?}: airfoil {airfoil:?} of a station: {cause}{places}")]
+    #[error("geometry.file = {name:?}: airfoil {airfoil}: {cause}")]
     StationAirfoil {
         name: String,
+        /// Its name, and where else it was looked for.
         airfoil: String,
         cause: AirfoilError,
-        /// Where else it was looked for, as the end of the sentence.
-        places: String,
     },
     #[error(
         "models.lift = slopesByReynolds, but the airfoil file {airfoil:?} ({parameter}) has no lift slopes; set {parameter} to a Modelica CombiTable file such as airfoils/naca0015.txt, or models.lift to table or twoPi"
@@ -51,12 +50,10 @@ pub enum SetupError {
     },
     #[error("geometry.file = {name:?}: {cause}")]
     RotorFile { name: String, cause: RotorFileError },
-    #[error("geometry.file = {name:?}: rotor file {file}{place}: {problem}")]
+    #[error("geometry.file = {name:?}: rotor file {problem}")]
     RotorFileValue {
         name: String,
-        file: String,
-        /// The line, if the entry has one.
-        place: String,
+        /// Beginning with the file and the line.
         problem: String,
     },
     #[error("the geometry parameters describe no rotor: {0}; change them or set geometry.file")]

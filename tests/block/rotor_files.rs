@@ -336,7 +336,7 @@ fn airfoils_are_found_beside_the_rotor_file_first() {
     let missing = ROTOR.replace("twist = -6.0", "twist = -6.0, airfoil = \"missing.polar\"");
     let error = refused("beside", &missing);
     assert!(
-        error.contains("nor is it beside the rotor file, in "),
+        error.contains("which is not beside the rotor file in "),
         "{error}"
     );
 }
