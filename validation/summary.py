@@ -5,6 +5,7 @@ import page
 
 HOVER_1, HOVER_2 = "Knight & Hefner 1937, hover", "Castles & Gray 1951, hover"
 HOVER_3 = "Caradonna & Tung 1981, hover"
+HOVER_4, PROPELLER = "Harrington 1951, hover", "UIUC, APC 10x7 SF propeller"
 DESCENT = "Castles & Gray 1951, descent"
 TWISTED = "Castles & Gray 1951, descent, twisted"
 FORWARD = "PCA-2 autogiro 1934, forward flight"
@@ -24,6 +25,11 @@ CHOSEN = [
         "prandtlGlauert with gessowMyers",
         "tip loss `gessowMyers`",
         "the same, gessowMyers",
+    ),
+    (HOVER_4, "CQ at the measured CT", "table", "defaults", "Harrington, hover: CQ"),
+    *(
+        (PROPELLER, quantity, "table", "defaults", f"propeller: {quantity}")
+        for quantity in ("CT, static", "CP, static", "CT, J up to 0.65", "CP, J up to 0.65")
     ),
     (
         DESCENT,

@@ -28,7 +28,8 @@ pub fn shipped(resources: &Path) -> Vec<(String, Airfoil)> {
 }
 
 /// Reads the airfoils of a geometry, in its order. A station without an airfoil of its own has the
-/// airfoil of the parameter `airfoil.file`. `files` gets every file.
+/// airfoil of the parameter `airfoil.file`. What a rotor file names is looked for beside that file
+/// first. `files` begins with the rotor file, if there is one, and gets every file.
 pub fn read_airfoils(
     values: &Values,
     geometry: &Geometry,
@@ -36,6 +37,9 @@ pub fn read_airfoils(
     resources: &Path,
     files: &mut Vec<ReadFile>,
 ) -> Result<Vec<Airfoil>, SetupError> {
+    // The first file is the rotor file, if there is one.
+    let folder = files.first().and_then(|file| file.path.parent());
+    let folder = folder.map(Path::to_path_buf);
     let mut airfoils = Vec::with_capacity(geometry.airfoils.len());
     for station in &geometry.airfoils {
         let has_own = !station.is_empty();
@@ -44,12 +48,18 @@ pub fn read_airfoils(
         } else {
             &values.strings[string::AIRFOIL__FILE]
         };
-        let path = resolve(resources, "airfoils", name);
+        let is_of_file = has_own || values.from_file.gave(string::AIRFOIL__FILE);
+        let folder = folder.as_deref().filter(|_| is_of_file);
+        let beside = folder.map(|folder| folder.join(name));
+        let path = match beside.filter(|path| path.is_file()) {
+            Some(path) => path,
+            None => resolve(resources, "airfoils", name),
+        };
         let (airfoil, hash) = Airfoil::read_with_hash(&path).map_err(|cause| {
             if has_own {
                 SetupError::StationAirfoil {
                     name: values.strings[string::GEOMETRY__FILE].clone(),
-                    airfoil: name.to_owned(),
+                    airfoil: format!("{name:?} of a station{}", place(folder, &path)),
                     cause,
                 }
             } else {
@@ -76,8 +86,22 @@ pub fn read_airfoils(
             },
             path,
             what: format!("read airfoil {:?}", airfoil.name()),
+            details: String::new(),
         });
         airfoils.push(airfoil);
     }
     Ok(airfoils)
+}
+
+/// Where an airfoil file that does not exist was looked for besides `path`, as a part of a sentence.
+fn place(folder: Option<&Path>, path: &Path) -> String {
+    match folder {
+        Some(folder) if !path.is_file() => {
+            format!(
+                ", which is not beside the rotor file in {} either",
+                folder.display()
+            )
+        }
+        _ => String::new(),
+    }
 }

@@ -41,14 +41,22 @@ pub(super) struct MadeRotor {
     rotor: Arc<Rotor>,
     workspace: Workspace,
     files: Vec<ReadFile>,
+    /// What it was made from, with what a rotor file gave.
+    values: Values,
 }
 
 impl MadeRotor {
-    /// The rotor of these parameters.
-    pub(super) fn of(values: &Values, resources: &Path) -> Result<Self, BlockError> {
+    /// The rotor of these parameters. With `defaults` its file gives what is not set.
+    pub(super) fn of(
+        values: &Values,
+        defaults: Option<&Values>,
+        resources: &Path,
+    ) -> Result<Self, BlockError> {
         let watch = Watch::begin();
-        let (rotor, files) = setup::rotor(values, resources)?;
+        let mut values = values.clone();
+        let (rotor, files) = setup::rotor(&mut values, defaults, resources)?;
         let made = Self {
+            values,
             workspace: Workspace::new(&rotor),
             rotor: Arc::new(rotor),
             files,
@@ -68,6 +76,7 @@ impl RotorBlock {
         let start = Initialized {
             rotor: &*self.rotor()?,
             values: &self.values,
+            defaults: &self.defaults,
             point: &FlightCondition::new(&self.values)?.point,
             shipped: &|| airfoils::shipped(&self.resources),
         };
@@ -85,6 +94,8 @@ impl RotorBlock {
             return Ok(());
         }
         let watch = Watch::begin();
+        // A rotor file may give inputs and parameters.
+        self.rotor()?;
         let condition = FlightCondition::new(&self.values)?;
         self.workspace.work = self.budget();
         let memory = match self.stage {
@@ -131,7 +142,14 @@ impl RotorBlock {
         if let Some(rotor) = &self.rotor {
             return Ok(Arc::clone(rotor));
         }
-        let made = MadeRotor::of(&self.values, &self.resources)?;
+        let made = if self.stage == Stage::Configuring {
+            let mut own = self.values.clone();
+            // Its references were those of variables, and exist.
+            let _ = own.withdraw_file();
+            MadeRotor::of(&own, Some(&self.defaults), &self.resources)?
+        } else {
+            MadeRotor::of(&self.values, None, &self.resources)?
+        };
         let unused = setup::unused_lock_number(&self.values);
         self.notes.extend(unused.map(Note::Warning));
         Ok(self.take_over(made))
@@ -144,7 +162,9 @@ impl RotorBlock {
             rotor,
             workspace,
             files,
+            values,
         } = made;
+        self.values = values;
         let notes = files.iter().map(|file| Note::Event(file.note()));
         self.notes.extend(notes);
         self.files = files;

@@ -17,12 +17,15 @@ pub struct ReadFile {
     pub path: PathBuf,
     /// What was read from it: the beginning of a sentence that ends with the path.
     pub what: String,
+    /// The end of the sentence, such as what a rotor file gives for parameters.
+    pub details: String,
 }
 
 impl ReadFile {
     /// The sentence for the log that says what was read.
     pub fn note(&self) -> String {
-        format!("{} from {}", self.what, self.path.display())
+        let Self { what, details, .. } = self;
+        format!("{what} from {}{details}", self.path.display())
     }
 }
 
@@ -60,6 +63,7 @@ mod tests {
             content: content(name, hash),
             path: PathBuf::from("/folder").join(name),
             what: String::new(),
+            details: String::new(),
         };
         let files = [read("rotor", 1), read("a", 2), read("b", 3), read("a", 2)];
         let saved = |a, b| [content("rotor", 1), content("a", a), content("b", b)];

@@ -4,6 +4,8 @@
 //! * `variables`, `references`, `values`: the table of variables, and a value for each of them
 //! * `setting`, `settings`, `limited_inputs`: values into the block, one by one or as a text of
 //!   assignments
+//! * `rotor_file`, `from_file`: values that a rotor file gives
+//! * `packaged`: the defaults of an .fmu that was made for one rotor
 //! * `setup`, `airfoils`, `flight_condition`, `ramp`: from values to a rotor and its operating
 //!   point
 //! * `computation`, `outputs`: the rotor's response, written to the outputs
@@ -23,6 +25,7 @@ mod computation;
 mod derivative;
 mod files;
 mod flight_condition;
+mod from_file;
 mod integrate;
 mod known_rates;
 mod limited_inputs;
@@ -30,10 +33,12 @@ mod location;
 mod model_exchange;
 mod outputs;
 mod outside_data;
+pub mod packaged;
 mod parted_step;
 mod plausibility;
 mod ramp;
 mod references;
+mod rotor_file;
 mod setting;
 mod settings;
 mod setup;
@@ -110,6 +115,8 @@ enum Fresh {
 #[derive(Debug)]
 pub struct RotorBlock {
     values: Values,
+    /// The values of a rotor of which nothing is set.
+    defaults: Box<Values>,
     stage: Stage,
     resources: PathBuf,
     /// None until the rotor is needed, and after a change of a parameter that defines it.
@@ -144,9 +151,10 @@ pub struct RotorBlock {
 impl RotorBlock {
     /// A rotor with default values. `resources` is the folder of the FMU's resources.
     pub fn new(resources: PathBuf) -> Self {
-        let values = Values::default();
+        let values = packaged::defaults(&resources);
         Self {
             flow_state: values.integers[integer::FLOW_STATE],
+            defaults: Box::new(values.clone()),
             values,
             stage: Stage::Configuring,
             resources,

@@ -44,6 +44,7 @@ fn write_outputs<S: Scalar>(
     let tip_speed = point.speed.abs() * geometry.radius;
     write_forces_and_moments(reals, hub, &condition.shaft.hub_to_ground);
     write_coefficients(reals, hub, point, geometry.radius);
+    write_propeller(reals, hub, point, geometry.radius);
     reals[real::THRUST] = hub.force.z;
     reals[real::TORQUE] = hub.torque;
     reals[real::POWER] = hub.torque * point.speed;
@@ -119,6 +120,40 @@ fn write_coefficients<S: Scalar>(
     let airspeed = &point.airspeed;
     reals[real::INFLOW_RATIO] = per(airspeed.z + hub.induced_velocity, tip_speed);
     reals[real::ADVANCE_RATIO] = per(airspeed.x.hypot(airspeed.y), tip_speed);
+}
+
+/// Writes the coefficients by which propellers are known, with revolutions per second and the
+/// diameter, as the UIUC Propeller Data Site has them. All are 0 at standstill.
+fn write_propeller<S: Scalar>(
+    reals: &mut Reals<S>,
+    hub: &HubLoads<S>,
+    point: &OperatingPoint<S>,
+    radius: f64,
+) {
+    let diameter = 2.0 * radius;
+    let revolutions = point.speed.abs() / (2.0 * PI);
+    let is_turning = (point.speed.abs() * radius).value() > STANDSTILL;
+    let per = |quantity: S, reference: S| {
+        if is_turning {
+            quantity / reference
+        } else {
+            S::zero()
+        }
+    };
+    let velocity = revolutions * diameter;
+    let force = point.air.density * velocity * velocity * (diameter * diameter);
+    let thrust = hub.force.z;
+    let power = hub.torque * point.speed;
+    let climb = point.airspeed.z;
+    reals[real::PROPELLER_THRUST_COEFFICIENT] = per(thrust, force);
+    reals[real::PROPELLER_POWER_COEFFICIENT] = per(power, force * velocity);
+    reals[real::PROPELLER_ADVANCE_RATIO] = per(climb, velocity);
+    let propels = [thrust, power, climb].iter().all(|x| x.value() > 0.0);
+    reals[real::PROPELLER_EFFICIENCY] = if propels && is_turning {
+        thrust * climb / power
+    } else {
+        S::zero()
+    };
 }
 
 /// Writes the stations along the blade, which are the middles of equal parts from cutout to tip.

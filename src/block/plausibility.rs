@@ -50,6 +50,8 @@ const NO_THRUST: f64 = -1e-5;
 /// A rotor at the end of initialisation, whose outputs have been computed.
 pub struct Initialized<'a> {
     pub values: &'a Values,
+    /// The values of an instance of which nothing is set.
+    pub defaults: &'a Values,
     pub rotor: &'a Rotor,
     pub point: &'a OperatingPoint,
     /// Reads the airfoils in the FMU, with their names. Called only if the rotor's own have no data
@@ -65,7 +67,7 @@ pub fn warnings(start: &Initialized) -> Vec<String> {
         solidity(start),
         twist_of_file(start),
         small_angles(start),
-        replaced(start.values),
+        replaced(start.values, start.defaults),
         missed_station(start),
         tip_mach(start),
         reynolds(start),
@@ -197,17 +199,18 @@ fn small_angles(start: &Initialized) -> Option<String> {
 }
 
 /// Parameters of the shape that were set although a rotor file replaces them.
-fn replaced(values: &Values) -> Option<String> {
+fn replaced(values: &Values, defaults: &Values) -> Option<String> {
     fn is_shape<T>(variable: &Variable<T>) -> bool {
         variable.causality == Causality::Parameter && variable.name.starts_with("geometry.")
     }
     let file = values.strings[string::GEOMETRY__FILE].as_str();
-    let reals = REALS.iter().zip(values.reals);
+    let reals = REALS.iter().zip(values.reals.iter().zip(defaults.reals));
     let reals = reals
-        .filter(|(v, value)| is_shape(v) && *value != v.start)
+        .filter(|(v, (value, default))| is_shape(v) && *value != default)
         .map(|(v, _)| v.name);
-    let integers = INTEGERS.iter().zip(values.integers);
-    let integers = integers.filter(|(v, value)| is_shape(v) && *value != v.start);
+    let integers = values.integers.iter().zip(defaults.integers);
+    let integers = INTEGERS.iter().zip(integers);
+    let integers = integers.filter(|(v, (value, default))| is_shape(v) && *value != default);
     let names: Vec<&str> = reals.chain(integers.map(|(v, _)| v.name)).collect();
     (!file.is_empty() && !names.is_empty()).then(|| {
         format!(

@@ -19,6 +19,15 @@ impl RotorBlock {
         names: &[impl Names<RealRef>],
         values: &[f64],
     ) -> Result<(), ValueError> {
+        let is_parameter =
+            |reference: RealRef| reference.variable().causality == Causality::Parameter;
+        if names
+            .iter()
+            .flat_map(|name| name.reference())
+            .any(is_parameter)
+        {
+            self.withdraw_file();
+        }
         self.values.set_reals(self.stage, names, values)?;
         let mut references = names.iter().flat_map(|name| name.reference());
         for (reference, value) in references.clone().zip(values) {
@@ -55,6 +64,7 @@ impl RotorBlock {
         names: &[impl Names<IntegerRef>],
         values: &[i32],
     ) -> Result<(), ValueError> {
+        self.withdraw_file();
         self.values.set_integers(self.stage, names, values)?;
         self.invalidate(self.stage == Stage::Configuring);
         Ok(())
@@ -66,6 +76,7 @@ impl RotorBlock {
         names: &[impl Names<BooleanRef>],
         values: &[i32],
     ) -> Result<(), ValueError> {
+        self.withdraw_file();
         self.values.set_booleans(self.stage, names, values)?;
         self.invalidate(self.stage == Stage::Configuring);
         Ok(())
@@ -79,6 +90,7 @@ impl RotorBlock {
         names: &[impl Names<StringRef>],
         values: &[&str],
     ) -> Result<(), SetStringsError> {
+        self.withdraw_file();
         let watch = Watch::begin();
         let mut changed = self.values.clone();
         for (name, value) in names.iter().zip(values) {
@@ -100,6 +112,16 @@ impl RotorBlock {
     /// half-written.
     pub fn forget_results(&mut self) {
         self.invalidate(false);
+    }
+
+    /// Before a parameter is set: it is compared with the others as the importer has set them, and
+    /// the rotor file's values follow when the rotor is made again.
+    fn withdraw_file(&mut self) {
+        if self.stage == Stage::Configuring && self.values.has_file_values() {
+            // Its references were those of variables, and exist.
+            let _ = self.values.withdraw_file();
+            self.invalidate(true);
+        }
     }
 
     /// The rotor is made again when it is needed, from the files as they are then.

@@ -75,6 +75,20 @@ pub fn assign(values: &mut Values, text: &str) -> Result<(), SettingsError> {
     Ok(())
 }
 
+/// The names that a text of assignments assigns, up to the first that cannot be read.
+pub fn names(text: &str) -> impl Iterator<Item = &str> {
+    assignments(text)
+        .flatten()
+        .map(|assignment| assignment.name)
+}
+
+/// The value that a text of assignments gives a name.
+pub fn value<'a>(text: &'a str, name: &str) -> Option<&'a str> {
+    let mut made = assignments(text).flatten();
+    made.find(|assignment| assignment.name == name)
+        .map(|assignment| assignment.value)
+}
+
 /// A warning for each assignment in `settings` that no longer holds, because its parameter was set
 /// directly afterwards.
 pub fn replaced(values: &Values) -> Vec<String> {

@@ -5,9 +5,10 @@ use super::{
     airfoils::read_airfoils,
     files::{FileHash, ReadFile},
     location::resolve,
+    rotor_file::{self, Taken},
     values::Values,
     variables::{
-        BladesModel, CompressibilityModel, DescentModel, GroundEffectModel, InflowModel,
+        BladesModel, CompressibilityModel, DescentModel, GroundEffectModel, HubModel, InflowModel,
         Initialization, IntegerRef, LiftModel, Rotation, TipLossModel, boolean, integer, real,
         string,
     },
@@ -17,8 +18,11 @@ use rotor::{
     airfoil::{AirfoilError, Lift, SectionModel},
     compressibility::Compressibility,
     flapping::{BladeMass, Freedom, Hinge, Stops},
-    geometry::{self, BladeInertia, Elements, Geometry, GeometryError, RotorFileError},
+    geometry::{
+        self, BladeInertia, Elements, Geometry, GeometryError, RotorDefinition, RotorFileError,
+    },
     inflow::{Descent, ElementInflow, GroundEffect, Inflow, Skew},
+    seesaw::Seesaw,
     state::MAX_FLAPPING_BLADES,
     tip_loss::TipLoss,
 };
@@ -30,9 +34,10 @@ use thiserror::Error;
 pub enum SetupError {
     #[error("airfoil.file = {name:?}: {cause}")]
     Airfoil { name: String, cause: AirfoilError },
-    #[error("geometry.file = {name:?}: airfoil {airfoil:?} of a station: {cause}")]
+    #[error("geometry.file = {name:?}: airfoil {airfoil}: {cause}")]
     StationAirfoil {
         name: String,
+        /// Its name, and where else it was looked for.
         airfoil: String,
         cause: AirfoilError,
     },
@@ -45,6 +50,12 @@ pub enum SetupError {
     },
     #[error("geometry.file = {name:?}: {cause}")]
     RotorFile { name: String, cause: RotorFileError },
+    #[error("geometry.file = {name:?}: rotor file {problem}")]
+    RotorFileValue {
+        name: String,
+        /// Beginning with the file and the line.
+        problem: String,
+    },
     #[error("the geometry parameters describe no rotor: {0}; change them or set geometry.file")]
     Geometry(GeometryError),
     #[error(
@@ -71,14 +82,29 @@ pub enum SetupError {
         lowest: f64,
         highest: f64,
     },
+    #[error(
+        "flapping.hub = teetering with {blades} blades: a seesaw has two; set two blades, or flapping.hub to hinged"
+    )]
+    SeesawBlades { blades: u32 },
+    #[error(
+        "flapping.hub = teetering with flapping.hingeOffset = {offset}: the hinge of a seesaw is at the shaft; set flapping.hingeOffset to 0, or flapping.hub to hinged"
+    )]
+    SeesawOffset { offset: f64 },
     #[error("{name} = {value}, which is not the number of a choice; set one of its choices")]
     Choice { name: &'static str, value: i32 },
 }
 
-/// The rotor that the parameters describe, and every file that was read.
-pub fn rotor(values: &Values, resources: &Path) -> Result<(Rotor, Vec<ReadFile>), SetupError> {
+/// The rotor that the parameters describe, and every file that was read, a rotor file first. With
+/// `defaults`, which are the values of a rotor of which nothing is set, `values` gets what the rotor
+/// file gives for variables that the importer has not set.
+pub fn rotor(
+    values: &mut Values,
+    defaults: Option<&Values>,
+    resources: &Path,
+) -> Result<(Rotor, Vec<ReadFile>), SetupError> {
     let mut files = Vec::new();
-    let geometry = geometry(values, resources, &mut files)?;
+    let geometry = geometry(values, defaults, resources, &mut files)?;
+    let values = &*values;
     let section = section(values)?;
     let airfoils = read_airfoils(values, &geometry, section.lift, resources, &mut files)?;
     // The range of the variable keeps the number of elements positive.
@@ -90,7 +116,8 @@ pub fn rotor(values: &Values, resources: &Path) -> Result<(Rotor, Vec<ReadFile>)
 
 /// The geometry in the rotor file or, without one, that of the geometry parameters.
 fn geometry(
-    values: &Values,
+    values: &mut Values,
+    defaults: Option<&Values>,
     resources: &Path,
     files: &mut Vec<ReadFile>,
 ) -> Result<Geometry, SetupError> {
@@ -98,16 +125,22 @@ fn geometry(
     if !name.is_empty() {
         let path = resolve(resources, "rotors", name);
         let name = name.to_owned();
-        let (geometry, hash) = match Geometry::read_with_hash(&path) {
+        let definition = match RotorDefinition::read(&path) {
             Ok(read) => read,
             Err(cause) => return Err(SetupError::RotorFile { name, cause }),
         };
+        let taken = match defaults {
+            Some(defaults) => rotor_file::apply(values, defaults, &definition, &path)?,
+            None => Taken::default(),
+        };
+        let hash = definition.hash;
         files.push(ReadFile {
             content: FileHash { name, hash },
             path,
             what: "read the rotor's geometry".to_owned(),
+            details: taken.note(),
         });
-        return Ok(geometry);
+        return Ok(definition.geometry);
     }
     let mut geometry = Geometry::linear(
         values.integers[integer::GEOMETRY__NUMBER_OF_BLADES].max(0) as u32,
@@ -141,6 +174,7 @@ fn models(
     let blades = blades(values)?;
     Ok(Models {
         hinge: hinge(values, geometry, &inflow, blades)?,
+        seesaw: seesaw(values, geometry)?,
         inflow,
         descent: descent(values)?,
         ground_effect,
@@ -292,6 +326,26 @@ fn hinge(
         mass,
         freedom,
     })
+}
+
+/// The seesaw of blades that flap as one. Fails if the rotor cannot have one.
+fn seesaw(values: &Values, geometry: &Geometry) -> Result<Option<Seesaw>, SetupError> {
+    let hub = choice(values, integer::FLAPPING__HUB, HubModel::from_integer)?;
+    match hub {
+        HubModel::Hinged => return Ok(None),
+        HubModel::Teetering if !values.booleans[boolean::FLAPPING__ENABLED] => return Ok(None),
+        HubModel::Teetering => {}
+    }
+    let blades = geometry.blades;
+    if blades != 2 {
+        return Err(SetupError::SeesawBlades { blades });
+    }
+    let offset = values.reals[real::FLAPPING__HINGE_OFFSET];
+    if offset != 0.0 {
+        return Err(SetupError::SeesawOffset { offset });
+    }
+    let undersling = values.reals[real::FLAPPING__UNDERSLING];
+    Ok(Some(Seesaw { undersling }))
 }
 
 /// The moment of inertia of one blade about its hinge, kg.m2: from the parameters, otherwise from

@@ -75,7 +75,7 @@ impl RotorBlock {
         let made = if is_configuring || (is_same && self.rotor.is_some()) {
             None
         } else {
-            Some(MadeRotor::of(&values, &self.resources)?)
+            Some(MadeRotor::of(&values, None, &self.resources)?)
         };
         if watch.is_short() {
             return Err(BlockError::NoMemory);
@@ -157,6 +157,9 @@ impl Snapshot {
             if text.contains('\0') || text.len() > MAX_TEXT {
                 return wrong(variable.name);
             }
+        }
+        if !self.values.from_file.is_sound() {
+            return wrong("a variable that a rotor file gave");
         }
         if !is_finite(&self.state) {
             return wrong("a continuous state");

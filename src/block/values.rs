@@ -1,6 +1,7 @@
 //! The values of all variables, and the rules under which they may be set.
 
 use super::{
+    from_file::{FromFile, Own},
     limited_inputs::{degrees, limited},
     ramp::Slopes,
     references::{
@@ -95,6 +96,8 @@ pub struct Values {
     pub integers: Integers,
     pub booleans: Booleans,
     pub strings: Strings,
+    /// Which of them a rotor file gave.
+    pub from_file: FromFile,
 }
 
 impl Default for Values {
@@ -104,6 +107,7 @@ impl Default for Values {
             integers: Integers::new(INTEGERS.map(|v| v.start)),
             booleans: Booleans::new(BOOLEANS.map(|v| v.start)),
             strings: Strings::new(STRINGS.map(|v| v.start.to_owned())),
+            from_file: FromFile::default(),
         }
     }
 }
@@ -158,7 +162,8 @@ impl Values {
             let kept = self.reals[reference];
             let name = variable.name;
             if !reference.is_state() {
-                may_set(variable, stage, *value != kept, || shown(kept))?;
+                let differs = *value != kept && !self.is_own(stage, reference, *value);
+                may_set(variable, stage, differs, || shown(kept))?;
             } else if stage != Stage::Integrating {
                 return Err(ValueError::State { name });
             }
@@ -187,9 +192,19 @@ impl Values {
         }
         for (name, value) in names.iter().zip(values) {
             let reference = name.reference()?;
-            self.reals[reference] = limited(reference.variable(), *value);
+            if !self.is_own(stage, reference, *value) {
+                self.reals[reference] = limited(reference.variable(), *value);
+                self.from_file.set_by_importer(reference);
+            }
         }
         Ok(())
+    }
+
+    /// Whether a fixed parameter that has the value of a rotor file is written again, after
+    /// initialisation, with the value that it had before: it keeps the file's.
+    fn is_own(&self, stage: Stage, reference: RealRef, value: f64) -> bool {
+        let is_fixed = stage != Stage::Configuring && !reference.variable().tunable;
+        is_fixed && self.from_file.replaced(&Own::Real(reference.into(), value))
     }
 
     /// Puts the derivatives in time of inputs into `slopes`: all of them or, if one is refused,
@@ -228,7 +243,9 @@ impl Values {
             let reference = name.reference()?;
             let variable = reference.variable();
             let kept = self.integers[reference];
-            may_set(variable, stage, *value != kept, || kept.to_string())?;
+            let own = Own::Integer(reference.into(), *value);
+            let differs = *value != kept && !self.from_file.replaced(&own);
+            may_set(variable, stage, differs, || kept.to_string())?;
             let name = variable.name;
             if (variable.min..=variable.max).contains(value) {
                 continue;
@@ -252,7 +269,11 @@ impl Values {
             });
         }
         for (name, value) in names.iter().zip(values) {
-            self.integers[name.reference()?] = *value;
+            let reference = name.reference()?;
+            let own = Own::Integer(reference.into(), *value);
+            if !self.from_file.replaced(&own) {
+                self.integers[reference] = *value;
+            }
         }
         Ok(())
     }
@@ -268,7 +289,9 @@ impl Values {
             let reference = name.reference()?;
             let variable = reference.variable();
             let kept = i32::from(self.booleans[reference]);
-            may_set(variable, stage, *value != kept, || kept.to_string())?;
+            let own = Own::Boolean(reference.into(), *value == 1);
+            let differs = *value != kept && !self.from_file.replaced(&own);
+            may_set(variable, stage, differs, || kept.to_string())?;
             if ![0, 1].contains(value) {
                 return Err(ValueError::NotAllowed {
                     name: variable.name,
@@ -279,7 +302,11 @@ impl Values {
             }
         }
         for (name, value) in names.iter().zip(values) {
-            self.booleans[name.reference()?] = *value == 1;
+            let reference = name.reference()?;
+            let own = Own::Boolean(reference.into(), *value == 1);
+            if !self.from_file.replaced(&own) {
+                self.booleans[reference] = *value == 1;
+            }
         }
         Ok(())
     }
@@ -295,14 +322,20 @@ impl Values {
             let reference = name.reference()?;
             let variable = reference.variable();
             let kept = &self.strings[reference];
-            may_set(variable, stage, value != kept, || format!("{kept:?}"))?;
+            let is_own = self.from_file.replaced_text(reference.into(), value);
+            may_set(variable, stage, value != kept && !is_own, || {
+                format!("{kept:?}")
+            })?;
             if value.len() > MAX_TEXT {
                 let (name, length) = (variable.name, value.len());
                 return Err(ValueError::TooLong { name, length });
             }
         }
         for (name, value) in names.iter().zip(values) {
-            (*value).clone_into(&mut self.strings[name.reference()?]);
+            let reference = name.reference()?;
+            if !self.from_file.replaced_text(reference.into(), value) {
+                (*value).clone_into(&mut self.strings[reference]);
+            }
         }
         Ok(())
     }

@@ -5,7 +5,7 @@ use super::{
     communication_time::Experiment,
     handle,
     instance::{Importer, Instance, Message},
-    legality::{Function, INSTANTIATED, Interface},
+    legality::{Function, INSTANTIATED, Interface, Version},
     logger::{Callback, Category, Logger, Wanted, printable},
     resource_location::resources,
     types::{Component, Environment, Text},
@@ -13,6 +13,7 @@ use super::{
 use crate::{
     block::{
         PerVariable, RotorBlock,
+        packaged::Packaged,
         variables::{INTEGERS, MODEL_IDENTIFIER, REALS},
     },
     host::{
@@ -22,6 +23,7 @@ use crate::{
 };
 use std::{
     panic::{AssertUnwindSafe, catch_unwind},
+    path::Path,
     ptr,
     sync::Once,
 };
@@ -60,22 +62,21 @@ pub unsafe fn create(request: Request) -> Component {
             wanted: request.wanted,
         };
         // SAFETY: passed on from the caller.
+        let location = unsafe { text(request.resources, "the location of the resources") };
+        let location = location.ok().filter(|text| text.len() <= LONGEST_TEXT);
+        let resources = resources(location);
+        // SAFETY: passed on from the caller.
         let token = unsafe { text(request.token, request.token_name) };
         let version = request.function.version;
-        let identified =
-            check_token(token, version.token_name(), version.token()).and(request.interface);
-        let interface = match identified {
+        let interface = match check_token(token, version, &resources).and(request.interface) {
             Ok(interface) => interface,
             Err(sentence) => return Err((logger, sentence)),
         };
-        // SAFETY: passed on from the caller.
-        let location = unsafe { text(request.resources, "the location of the resources") };
-        let location = location.ok().filter(|text| text.len() <= LONGEST_TEXT);
         let instance = Instance {
             version,
             interface,
             state: INSTANTIATED,
-            block: RotorBlock::new(resources(location)),
+            block: RotorBlock::new(resources),
             logger,
             strings: PerVariable::new(Default::default()),
             experiment: Experiment::default(),
@@ -116,14 +117,25 @@ fn cut(name: &str) -> &str {
 }
 
 /// An error if the importer asks for another FMU.
-fn check_token(given: Result<&str, Message>, name: &str, ours: &str) -> Result<(), String> {
+fn check_token(
+    given: Result<&str, Message>,
+    version: Version,
+    resources: &Path,
+) -> Result<(), String> {
     let given = given.map_err(|message| match message {
         Message::Error(text) | Message::Warning(text) => text,
     })?;
+    // An .fmu that was made for one rotor has a GUID of its own, since its start values differ.
+    let packaged = Packaged::read(resources);
+    let of_this_library = packaged
+        .as_ref()
+        .filter(|packaged| packaged.library == version.token());
+    let ours = of_this_library.map_or(version.token(), |packaged| &packaged.guid);
     if given.trim() != ours {
         let given: String = given.chars().take(80).collect();
         return Err(format!(
-            "the {name} {given:?} is not the binary's, {ours}; modelDescription.xml and binary must come from the same .fmu"
+            "the {} {given:?} is not the binary's, {ours}; modelDescription.xml and binary must come from the same .fmu",
+            version.token_name()
         ));
     }
     Ok(())

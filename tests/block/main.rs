@@ -23,5 +23,6 @@ mod model_effects;
 mod names;
 mod presets;
 mod propellers;
+mod rotor_files;
 mod settings;
 mod slopes_by_reynolds;

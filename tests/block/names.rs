@@ -97,7 +97,7 @@ const MATLAB_LENGTH: usize = 63;
 
 /// Every enumeration with its items, which have the numbers 1, 2, 3 ... Append new items here and
 /// in modelDescription/variables.toml. Never change anything else in this table.
-const ENUMERATIONS: [(&str, &[&str]); 12] = [
+const ENUMERATIONS: [(&str, &[&str]); 13] = [
     (
         "InflowModel",
         &[
@@ -144,6 +144,7 @@ const ENUMERATIONS: [(&str, &[&str]); 12] = [
     ("Rotation", &["counterClockwise", "clockwise"]),
     ("Initialization", &["steady", "rest"]),
     ("Atmosphere", &["isa", "userDefined"]),
+    ("HubModel", &["hinged", "teetering"]),
 ];
 
 fn description() -> Document<'static> {

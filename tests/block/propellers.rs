@@ -59,6 +59,77 @@ fn a_propeller_has_the_annulus_thrust_and_torque_up_to_an_advance_ratio_of_1_5()
     }
 }
 
+/// CT = T/(rho n^2 D^4), CP = P/(rho n^3 D^5), J = V/(n D), eta = J CT/CP.
+#[test]
+fn a_propeller_has_the_coefficients_with_revolutions_and_diameter() {
+    let mut block = block("annulus", &PROPELLER);
+    set_integer(&mut block, integer::GEOMETRY__NUMBER_OF_BLADES, 2);
+    let (n, d): (f64, f64) = (100.0, 0.254);
+    let of = |block: &RotorBlock| {
+        [
+            real::PROPELLER_THRUST_COEFFICIENT,
+            real::PROPELLER_POWER_COEFFICIENT,
+            real::PROPELLER_ADVANCE_RATIO,
+            real::PROPELLER_EFFICIENCY,
+        ]
+        .map(|output| get(block, output))
+    };
+    let close = |found: f64, expected: f64, what: &str| {
+        assert!(
+            (found / expected - 1.0).abs() < 1e-12,
+            "{what}: {found} {expected}"
+        );
+    };
+    for velocity in [20.0, 30.0] {
+        set(&mut block, real::VELOCITY_3, velocity);
+        block.update().unwrap();
+        let [thrust, power, advance, efficiency] = of(&block);
+        let density = get(&block, real::AIR_DENSITY);
+        close(
+            thrust,
+            get(&block, real::THRUST) / (density * n.powi(2) * d.powi(4)),
+            "CT",
+        );
+        close(
+            power,
+            get(&block, real::POWER) / (density * n.powi(3) * d.powi(5)),
+            "CP",
+        );
+        close(advance, velocity / (n * d), "J");
+        close(efficiency, advance * thrust / power, "eta");
+        assert!((0.5..0.95).contains(&efficiency), "{efficiency}");
+        let pi = std::f64::consts::PI;
+        close(
+            thrust,
+            get(&block, real::THRUST_COEFFICIENT) * pi.powi(3) / 4.0,
+            "CT by CT",
+        );
+        close(
+            power,
+            get(&block, real::POWER_COEFFICIENT) * pi.powi(4) / 4.0,
+            "CP by CP",
+        );
+    }
+    // Neither a static propeller nor one that is a windmill or stands still has an efficiency.
+    for (velocity, rpm, turns) in [
+        (0.0, 6000.0, true),
+        (80.0, 6000.0, true),
+        (10.0, 0.0, false),
+    ] {
+        set(&mut block, real::VELOCITY_3, velocity);
+        set(&mut block, real::RPM, rpm);
+        block.update().unwrap();
+        let [thrust, power, advance, efficiency] = of(&block);
+        assert_eq!(efficiency, 0.0, "{velocity} m/s, {rpm} rpm");
+        assert_eq!(
+            thrust != 0.0 && power != 0.0,
+            turns,
+            "{velocity} m/s, {rpm} rpm"
+        );
+        assert_eq!(advance != 0.0, turns && velocity > 0.0);
+    }
+}
+
 /// The speed to which a rotor without torque settles, rev/min.
 fn settled(mut block: RotorBlock, seconds: f64) -> f64 {
     choose(&mut block, integer::DRIVE__MODE, "torque");

@@ -15,8 +15,10 @@ from . import (
     descent,
     elements,
     forward_inflow,
+    harrington,
     knight_hefner,
     lift_slopes,
+    propeller,
     stall,
 )
 
@@ -26,6 +28,8 @@ CASES = {
         knight_hefner,
         castles_gray,
         caradonna_tung,
+        harrington,
+        propeller,
         descent,
         autogiro,
         forward_inflow,

@@ -10,6 +10,7 @@ mod polar;
 mod process;
 mod progress;
 mod python;
+mod rotor_file;
 mod scripts;
 mod stop;
 mod summary;
@@ -47,8 +48,8 @@ struct Arguments {
 enum Command {
     /// Make the two .fmu only
     Package {
-        /// The .fmu of FMI 2.0 to write [default: target/fmu/HelicopterRotor.fmu]; that of FMI 3.0
-        /// gets `-fmi3` at the end of its name
+        /// The .fmu of FMI 2.0 to write [default: target/fmu/HelicopterRotor.fmu, or that of
+        /// --name]; that of FMI 3.0 gets `-fmi3` at the end of its name
         ///
         /// A regular file, old or new: folders, devices and FIFOs are refused. Of a symbolic link
         /// the target is written, also if it does not exist yet, and the link stays.
@@ -56,12 +57,18 @@ enum Command {
         out: Option<PathBuf>,
         #[command(flatten)]
         selection: package::Selection,
+        #[command(flatten)]
+        rotor: package::OwnRotor,
     },
     /// Make a .polar file of the section data of other programs, and draw it
     ///
     /// Says what each file was taken for. Data that end before the full circle are extended; the
     /// rows that are not data are marked.
     Polar(#[command(flatten)] polar::Options),
+    /// Show the rotor in a file: table, drawing, solidity, Lock number, hover
+    Check(rotor_file::Check),
+    /// Write a commented rotor file
+    New(rotor_file::New),
     /// Run the examples in fmu-examples/: tables and pictures of systems that contain the rotor
     Examples {
         /// Run only these
@@ -160,17 +167,27 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
     let library = || library.map_or_else(|| package::library::build(&target), Ok);
     let default_fmu = target.join("fmu").join("HelicopterRotor.fmu");
     match command {
-        Some(Command::Package { out, selection }) => {
-            let out = out.unwrap_or(default_fmu);
+        Some(Command::Package {
+            out,
+            selection,
+            rotor,
+        }) => {
+            let own = rotor.read(&package::resources())?;
+            let name = own.as_ref().map(|own| format!("{}.fmu", own.name));
+            let default = name.map_or(default_fmu, |name| target.join("fmu").join(name));
+            let out = out.unwrap_or(default);
             // Refused before the library is built.
             draft::place_of_file(&out)?;
             draft::place_of_file(&package::beside(&out))?;
-            let other = package::write_both(&out, &selection.contents(given, &target)?)?;
+            let contents = selection.contents(given, &target)?;
+            let other = package::write_both(&out, &contents, own.as_ref())?;
             output::print(format_args!("Made {}", out.display()))?;
             output::print(format_args!("Made {}", other.display()))
         }
         // Has returned above, as it needs no source tree.
         Some(Command::Polar(_)) => Ok(()),
+        Some(Command::Check(check)) => check.run(),
+        Some(Command::New(new)) => new.run(),
         Some(Command::Examples { names, out }) => {
             let out = out.unwrap_or_else(|| target.join("examples"));
             let fmu = out.join("HelicopterRotor.fmu");
@@ -196,7 +213,7 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
         Some(Command::Python) => output::print(python::environment(&target)?.display()),
         None => {
             let contents = package::Contents::of_host(&library()?)?;
-            let other = package::write_both(&default_fmu, &contents)?;
+            let other = package::write_both(&default_fmu, &contents, None)?;
             output::print(format_args!("Made {}", default_fmu.display()))?;
             output::print(format_args!("Made {}", other.display()))?;
             scripts::fly_knight_hefner(&default_fmu, &target)

@@ -208,6 +208,25 @@ impl<'a, S: Scalar> Evaluation<'a, S> {
         }
     }
 
+    /// beta'' of each blade, rad/s2, under these aerodynamic moments about the hinges, N.m.
+    pub(crate) fn flap_accelerations(&self, moments: &[S]) -> OfPositions<S> {
+        let models = self.rotor.models();
+        let blades = self.positions.iter().zip(moments);
+        if let (Some(seesaw), [one, two]) = (&models.seesaw, self.positions.as_slice())
+            && let [first, second, ..] = moments
+        {
+            let actions = [self.action(*first), self.action(*second)];
+            let blades = [(one, &actions[0]), (two, &actions[1])];
+            let both = seesaw.accelerations(&models.hinge, &self.flow, blades);
+            return both.into_iter().collect();
+        }
+        let of = |(position, moment): (&BladePosition<S>, &S)| {
+            let action = self.action(*moment);
+            models.hinge.acceleration(&self.flow, position, &action)
+        };
+        blades.map(of).collect()
+    }
+
     /// What acts on a blade whose aerodynamic loads have this moment about the hinge, N.m.
     pub(crate) fn action(&self, moment: S) -> Action<S> {
         Action {

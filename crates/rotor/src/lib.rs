@@ -42,7 +42,7 @@
 //! * the disc: `disc`, `induced`
 //! * the elements: `element`, `blade_loads`, `blade`, `sweep`
 //! * inflow: `inflow`
-//! * the rotor: `state`, `operating_point`, `flapping`, `models`, `rotor`, `workspace`,
+//! * the rotor: `state`, `operating_point`, `flapping`, `seesaw`, `models`, `rotor`, `workspace`,
 //!   `data_range`
 //! * what it computes: `evaluation`, `loads`, `lift_end`, `tip_path`, `hub_loads`, `rates`,
 //!   `response`, `step`, `stiff_step`, `start`
@@ -62,6 +62,7 @@ pub mod geometry;
 pub mod inflow;
 pub mod numbers;
 pub mod root;
+pub mod seesaw;
 pub mod state;
 pub mod tip_loss;
 

@@ -5,6 +5,7 @@ use super::{
     compressibility::Compressibility,
     flapping::Hinge,
     inflow::{Descent, ElementInflow, GroundEffect, Inflow},
+    seesaw::Seesaw,
     tip_loss::TipLoss,
 };
 
@@ -21,6 +22,8 @@ pub struct Models {
     pub blades: Blades,
     /// The flapping hinges.
     pub hinge: Hinge,
+    /// What makes two blades that flap, on hinges at the shaft, a seesaw.
+    pub seesaw: Option<Seesaw>,
     /// Loss of lift at the ends of the blade.
     pub tip_loss: TipLoss,
     /// How section coefficients are made from airfoil data.
@@ -37,6 +40,7 @@ impl Default for Models {
             ground_effect: GroundEffect::None,
             blades: Blades::Automatic,
             hinge: Hinge::default(),
+            seesaw: None,
             tip_loss: TipLoss::Prandtl,
             section: SectionModel {
                 lift: Lift::Table,

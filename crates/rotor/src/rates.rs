@@ -15,7 +15,6 @@ pub(crate) fn of<S: Scalar>(evaluation: &Evaluation<S>, loads: &DiscLoads<S>) ->
         rotor,
         point,
         axes,
-        flow,
         positions,
         ..
     } = evaluation;
@@ -35,11 +34,11 @@ pub(crate) fn of<S: Scalar>(evaluation: &Evaluation<S>, loads: &DiscLoads<S>) ->
         ..State::default()
     };
     if evaluation.freedom.is_some() {
+        let accelerations = evaluation.flap_accelerations(&loads.hinge_moments);
         let blades = rates.flaps.iter_mut().zip(positions.iter());
-        for ((rate, position), moment) in blades.zip(loads.hinge_moments) {
-            let action = evaluation.action(moment);
+        for ((rate, position), acceleration) in blades.zip(accelerations) {
             rate.angle = position.flap.rate;
-            rate.rate = rotor.models().hinge.acceleration(flow, position, &action);
+            rate.rate = acceleration;
         }
     }
     if let Drive::Torque { torque, inertia } = point.drive {

@@ -190,17 +190,21 @@ impl Rotor {
         let blades = self.flapping_blades();
         let per_rate = DIFFERENCE * point.at_speed_of(state).speed.abs().max(1.0);
         let mut moved = *state;
-        for flap in &mut moved.flaps[..blades] {
-            flap.angle += DIFFERENCE;
+        // The blades of a seesaw move against each other.
+        let is_seesaw = self.models().seesaw.is_some();
+        let sign = |k: usize| if is_seesaw && k == 1 { -1.0 } else { 1.0 };
+        for (k, flap) in moved.flaps[..blades].iter_mut().enumerate() {
+            flap.angle += sign(k) * DIFFERENCE;
         }
         let by_angle = self.rates(point, &moved, workspace)?;
         moved.flaps = state.flaps;
-        for flap in &mut moved.flaps[..blades] {
-            flap.rate += per_rate;
+        for (k, flap) in moved.flaps[..blades].iter_mut().enumerate() {
+            flap.rate += sign(k) * per_rate;
         }
         let by_rate = self.rates(point, &moved, workspace)?;
         Ok(core::array::from_fn(|k| {
-            let acceleration = |rates: &State| rates.flaps[k].rate - first.flaps[k].rate;
+            let acceleration =
+                |rates: &State| sign(k) * (rates.flaps[k].rate - first.flaps[k].rate);
             Matrix2::new(
                 0.0,
                 1.0,

@@ -1,7 +1,7 @@
 //! The tip path: the cone of the blades.
 
 use super::{
-    disc::Flap,
+    disc::{Flap, OfPositions},
     evaluation::Evaluation,
     inflow::DiscLoads,
     numbers::{C, Scalar},
@@ -50,6 +50,12 @@ impl<S: Scalar> TipPath<S> {
         path.coning = S::zero();
         let count = evaluation.positions.len() as f64;
         let speed = evaluation.point.speed;
+        // Where they are needed.
+        let accelerations = if count > 2.0 {
+            OfPositions::new()
+        } else {
+            evaluation.flap_accelerations(&loads.hinge_moments)
+        };
         for (k, position) in evaluation.positions.iter().enumerate() {
             let psi = evaluation.state.azimuth + 2.0 * PI * k as f64 / count;
             let (sin, cos) = (psi.sin(), psi.cos());
@@ -57,9 +63,7 @@ impl<S: Scalar> TipPath<S> {
             let (coning, longitudinal, lateral) = if count > 2.0 {
                 (angle, angle * -2.0 * cos, angle * -2.0 * sin)
             } else {
-                let action = evaluation.action(loads.hinge_moments[k]);
-                let acceleration = hinge.acceleration(&evaluation.flow, position, &action);
-                let second = acceleration / (speed * speed);
+                let second = accelerations[k] / (speed * speed);
                 let first = rate / speed;
                 let pendulum = C(hinge.pendulum_frequency()) / speed.abs();
                 let is_cone = defined(first.hypot(second), MAX_LEAN, Some(S::one()));

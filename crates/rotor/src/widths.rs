@@ -14,6 +14,7 @@ use crate::{
     numbers::{Dual64, Width},
     operating_point::{Drive, OperatingPoint},
     rotor::Rotor,
+    seesaw::Seesaw,
     state::State,
     tip_loss::TipLoss,
     workspace::Workspace,
@@ -107,6 +108,7 @@ impl Random {
                 mass: BladeMass::rod(0.5, 1.4),
                 freedom: self.any(&[None, Some(freedom)]),
             },
+            seesaw: (blades == 2).then(Seesaw::default),
             tip_loss: self.any(&[
                 TipLoss::None,
                 TipLoss::Prandtl,

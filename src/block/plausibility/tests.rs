@@ -54,14 +54,20 @@ fn says(warnings: &[String], parts: &[&str]) {
 }
 
 /// The rotors in the FMU with a rotor speed at which they were tested, rev/min.
-const PRESETS: [(&str, f64); 7] = [
+const PRESETS: [(&str, f64); 13] = [
+    ("apc-10x7sf.toml", 6000.0),
+    ("bo-105.toml", 442.0),
     ("caradonna-tung.toml", 1250.0),
     ("castles-gray-6ft.toml", 1200.0),
     ("castles-gray-6ft-twist12.toml", 1200.0),
+    ("harrington-1.toml", 382.0),
+    ("hart-ii.toml", 1042.0),
     ("knight-hefner-3.toml", 960.0),
     ("knight-hefner-4.toml", 960.0),
+    ("light-teetering.toml", 440.0),
     ("pca-2.toml", 140.0),
     ("thesis.toml", 430.0),
+    ("uh-60a.toml", 257.8),
 ];
 
 #[test]

@@ -6,14 +6,17 @@
 //! * `cross.rs`: building it for other machines
 //! * `binary.rs`: checking a built library
 //! * `documentation.rs`: the documentation page
+//! * `own_rotor.rs`: what makes an .fmu that of one rotor
 
 mod binary;
 mod cross;
 mod documentation;
 pub mod library;
+mod own_rotor;
 mod platform;
 mod selection;
 
+pub use own_rotor::{Own, OwnRotor};
 pub use selection::{Contents, Selection};
 
 use crate::{
@@ -21,7 +24,11 @@ use crate::{
     draft::{Draft, place_of_file},
     failed, files, sources,
 };
-use helicopter_rotor::{block::variables::MODEL_IDENTIFIER, description, fmi::legality::Version};
+use helicopter_rotor::{
+    block::{packaged, variables::MODEL_IDENTIFIER},
+    description,
+    fmi::legality::Version,
+};
 use platform::Platform;
 use std::{
     env,
@@ -58,17 +65,18 @@ fn model_description() -> PathBuf {
     sources().join("modelDescription")
 }
 
-/// Writes the .fmu of FMI 2.0 with these libraries in it. After an error there is no incomplete
-/// `file`.
+/// Writes the general .fmu of FMI 2.0 with these libraries in it. After an error there is no
+/// incomplete `file`.
 pub fn write(file: &Path, contents: &Contents) -> Result<(), Failure> {
-    write_version(file, contents, Version::Two)
+    write_version(file, contents, None, Version::Two)
 }
 
-/// Writes the .fmu of FMI 2.0, and then that of FMI 3.0 beside it. Returns the path of the latter.
-pub fn write_both(file: &Path, contents: &Contents) -> Result<PathBuf, Failure> {
+/// Writes the .fmu of FMI 2.0, and then that of FMI 3.0 beside it, for one rotor, if there is one.
+/// Returns the path of the latter.
+pub fn write_both(file: &Path, contents: &Contents, own: Option<&Own>) -> Result<PathBuf, Failure> {
     let other = beside(file);
-    write_version(file, contents, Version::Two)?;
-    write_version(&other, contents, Version::Three)?;
+    write_version(file, contents, own, Version::Two)?;
+    write_version(&other, contents, own, Version::Three)?;
     Ok(other)
 }
 
@@ -83,15 +91,30 @@ pub fn beside(file: &Path) -> PathBuf {
     file.with_file_name(name)
 }
 
-fn write_version(file: &Path, contents: &Contents, version: Version) -> Result<(), Failure> {
+/// The folder of the resources of the general FMU.
+pub fn resources() -> PathBuf {
+    model_description().join("resources")
+}
+
+fn write_version(
+    file: &Path,
+    contents: &Contents,
+    own: Option<&Own>,
+    version: Version,
+) -> Result<(), Failure> {
     let draft = Draft::new(place_of_file(file)?)?;
     let out =
         File::create(draft.path()).map_err(failed(format!("cannot write {}", file.display())))?;
-    archive(out, contents, version)?;
+    archive(out, contents, own, version)?;
     draft.publish()
 }
 
-fn archive(out: impl Write + Seek, contents: &Contents, version: Version) -> Result<(), Failure> {
+fn archive(
+    out: impl Write + Seek,
+    contents: &Contents,
+    own: Option<&Own>,
+    version: Version,
+) -> Result<(), Failure> {
     let is_fmi2 = version == Version::Two;
     let mut zip = ZipWriter::new(out);
     // A fixed date and mode: the same content gives the same bytes.
@@ -106,7 +129,16 @@ fn archive(out: impl Write + Seek, contents: &Contents, version: Version) -> Res
             .map_err(failed(format!("cannot add {name} to the archive")))
     };
     let read = |relative: &str| files::read(&model_description().join(relative));
-    add("modelDescription.xml", xml(contents, version)?.as_bytes())?;
+    let mut xml = xml(contents, version)?;
+    let mut resources = Vec::new();
+    if let Some(own) = own {
+        let (own_xml, text) = own.describe(&xml, version)?;
+        xml = own_xml;
+        resources.push((packaged::FILE.to_owned(), text.into_bytes()));
+        resources.extend(own.files.iter().cloned());
+    }
+    add("modelDescription.xml", xml.as_bytes())?;
+    let identifier = own.map_or(MODEL_IDENTIFIER, |own| &own.name);
     for (platform, binary) in &contents.binaries {
         if contents.is_for_arm_only && !is_fmi2 && *platform == Platform::Linux64 {
             // Importers of FMI 3.0 find the folder of their machine.
@@ -114,7 +146,7 @@ fn archive(out: impl Write + Seek, contents: &Contents, version: Version) -> Res
         }
         let (folder, suffix) = (platform.folder_of(version), platform.suffix());
         add(
-            &format!("binaries/{folder}/{MODEL_IDENTIFIER}{suffix}"),
+            &format!("binaries/{folder}/{identifier}{suffix}"),
             &binary.0,
         )?;
     }
@@ -134,9 +166,26 @@ fn archive(out: impl Write + Seek, contents: &Contents, version: Version) -> Res
     }
     let folders_of_version = FOLDERS_OF_FMI2.iter().filter(|_| is_fmi2);
     for (folder, name_in_archive) in FOLDERS.iter().chain(folders_of_version) {
+        // The reference flights are those of the general FMU's defaults.
+        if own.is_some() && *folder == "extra" {
+            continue;
+        }
         for relative in files::names_below(&model_description().join(folder))? {
             let content = read(&format!("{folder}/{relative}"))?;
-            add(&format!("{name_in_archive}/{relative}"), &content)?;
+            let name = format!("{name_in_archive}/{relative}");
+            let is_replaced = resources
+                .iter()
+                .any(|(own, _)| name == format!("resources/{own}"));
+            if !is_replaced {
+                add(&name, &content)?;
+            }
+        }
+    }
+    let mut added: Vec<&str> = Vec::new();
+    for (name, content) in &resources {
+        if !added.contains(&name.as_str()) {
+            add(&format!("resources/{name}"), content)?;
+            added.push(name);
         }
     }
     zip.finish().map_err(failed("cannot finish the archive"))?;

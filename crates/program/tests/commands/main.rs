@@ -16,6 +16,7 @@ mod package_out;
 mod platforms;
 mod polar;
 mod reference;
+mod rotor_file;
 mod support;
 mod tables;
 mod terminal;

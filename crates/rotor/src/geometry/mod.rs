@@ -5,7 +5,7 @@ mod file;
 mod inertia;
 
 pub use elements::{Block, Elements, Missed};
-pub use file::RotorFileError;
+pub use file::{Given, GivenValue, RotorDefinition, RotorFileError, nearest};
 pub use inertia::{BladeInertia, lock_number};
 
 use core::{f64::consts::PI, ops::RangeInclusive};
@@ -58,14 +58,17 @@ pub struct Geometry {
     pub blades: u32,
     /// Rotor radius R, in `RADIUS`, m.
     pub radius: f64,
-    /// r/R at which the pitch equals the collective, 0 to 1.
+    /// r/R at which the pitch equals the collective, 0 to 1; not used with `has_blade_angles`.
     pub pitch_reference_radius: f64,
+    /// Whether the twist of the stations is their pitch at a collective of 0, so that no radius is a
+    /// reference.
+    pub has_blade_angles: bool,
     /// Direction of rotation, seen from above.
     pub rotation: Rotation,
     /// Chord of the tip for tip losses and for the tip's Reynolds number, >= 0, m.
     pub tip_chord: f64,
-    /// Stations from the cutout (r/R in `CUTOUT`) to the tip (r/R = 1): two or more, radii strictly
-    /// increasing.
+    /// Stations from the cutout (r/R in `CUTOUT`) to the tip (r/R = 1): two or more, radii
+    /// increasing. Two stations at one radius between the ends are a step.
     pub stations: Vec<Station>,
     /// Airfoil files of the sections; an empty name is the rotor's standard airfoil.
     pub airfoils: Vec<String>,
@@ -105,6 +108,7 @@ impl Geometry {
             blades,
             radius,
             pitch_reference_radius: 0.0,
+            has_blade_angles: false,
             rotation: Rotation::CounterClockwise,
             tip_chord: chord * taper_ratio,
             stations: vec![station(cutout, chord), station(1.0, chord * taper_ratio)],
@@ -147,10 +151,22 @@ impl Geometry {
             return fail("the blade has no stations; it needs two or more".into());
         };
         for pair in self.stations.windows(2) {
-            if pair[1].radius_ratio.is_nan() || pair[1].radius_ratio <= pair[0].radius_ratio {
+            if pair[1].radius_ratio.is_nan() || pair[1].radius_ratio < pair[0].radius_ratio {
                 return fail(format!(
                     "the blade stations must go outwards, but r/R = {:?} follows {:?}",
                     pair[1].radius_ratio, pair[0].radius_ratio
+                ));
+            }
+        }
+        let at = |s: &Station, other: &Station| s.radius_ratio == other.radius_ratio;
+        for (i, pair) in self.stations.windows(2).enumerate() {
+            let is_end = i == 0 || i + 2 == self.stations.len();
+            let is_third = self.stations.get(i + 2).is_some_and(|s| at(s, &pair[1]));
+            if at(&pair[0], &pair[1]) && (is_end || is_third) {
+                return fail(format!(
+                    "the blade stations must go outwards, but r/R = {:?} is given {}; two stations at one radius are a step, which has room between the cutout and the tip only",
+                    pair[1].radius_ratio,
+                    if is_third { "three times" } else { "twice" }
                 ));
             }
         }
@@ -202,8 +218,11 @@ impl Geometry {
 
     /// Pitch of the section at `radius_ratio` less the collective, rad.
     pub fn twist(&self, radius_ratio: f64) -> f64 {
-        self.interpolate(radius_ratio, |s| s.twist)
-            - self.interpolate(self.pitch_reference_radius, |s| s.twist)
+        let twist = self.interpolate(radius_ratio, |s| s.twist);
+        if self.has_blade_angles {
+            return twist;
+        }
+        twist - self.interpolate(self.pitch_reference_radius, |s| s.twist)
     }
 
     /// Chord at `radius_ratio`, from the cutout to the tip, m.
@@ -220,6 +239,23 @@ impl Geometry {
     pub fn solidity(&self) -> f64 {
         let disc = PI * self.radius * self.radius;
         f64::from(self.blades) * self.area(self.cutout(), 1.0) / disc
+    }
+
+    /// Solidity of rectangular blades, from the shaft to the tip, with the same thrust at one lift
+    /// coefficient, which is proportional to the integral of c r^2.
+    pub fn thrust_weighted_solidity(&self) -> f64 {
+        let mut sum = 0.0;
+        for pair in self.stations.windows(2) {
+            let (a, b) = (&pair[0], &pair[1]);
+            let middle = 0.5 * (a.radius_ratio + b.radius_ratio);
+            let weight = |r: f64, chord: f64| chord * r * r;
+            // Simpson's rule is exact for a cubic.
+            sum += (b.radius_ratio - a.radius_ratio) / 6.0
+                * (weight(a.radius_ratio, a.chord)
+                    + 4.0 * weight(middle, 0.5 * (a.chord + b.chord))
+                    + weight(b.radius_ratio, b.chord));
+        }
+        3.0 * sum * f64::from(self.blades) / (PI * self.radius)
     }
 
     /// A quantity at a radius: linear between the stations; inside the cutout it follows the line
@@ -243,15 +279,15 @@ impl Geometry {
         )
     }
 
-    /// Distance of a station, by its index, from the nearer of its neighbours, r/R.
+    /// Distance of a station, by its index, from the nearer of its neighbours, r/R; the other
+    /// station of a step does not count.
     pub fn gap(&self, station: usize) -> f64 {
         let gaps = self.stations.windows(2);
         let gaps = gaps.map(|pair| pair[1].radius_ratio - pair[0].radius_ratio);
         // The gap before the station and the one behind it.
         let sides = gaps.skip(station.saturating_sub(1));
-        sides
-            .take(if station == 0 { 1 } else { 2 })
-            .fold(1.0, f64::min)
+        let sides = sides.take(if station == 0 { 1 } else { 2 });
+        sides.filter(|gap| *gap > 0.0).fold(1.0, f64::min)
     }
 
     /// Blade area between two radii (fractions of R), m2: the exact integral of the linear chord.

@@ -12,6 +12,7 @@ use crate::{
     operating_point::OperatingPoint,
     root::{self, End},
     rotor::Rotor,
+    seesaw::Seesaw,
     state::State,
     sweep::Wanted,
     workspace::Workspace,
@@ -69,6 +70,22 @@ fn under<S: Scalar>(evaluation: &Evaluation<S>, moments: &[S]) -> State<S> {
     let Some(freedom) = evaluation.freedom else {
         return balanced;
     };
+    if let (Some(seesaw), [one, two]) = (
+        &evaluation.rotor.models().seesaw,
+        evaluation.positions.as_slice(),
+    ) && let [first, second, ..] = moments
+    {
+        if let Some(angle) = teeter(evaluation, freedom, seesaw, [(one, *first), (two, *second)]) {
+            let precone = evaluation.rotor.models().hinge.precone;
+            for (flap, angle) in balanced.flaps.iter_mut().zip([angle, -angle]) {
+                *flap = Flap {
+                    angle: angle + precone,
+                    rate: S::zero(),
+                };
+            }
+        }
+        return balanced;
+    }
     let blades = evaluation.positions.iter().zip(moments);
     for (flap, (position, moment)) in balanced.flaps.iter_mut().zip(blades) {
         if let Some(angle) = angle(evaluation, freedom, position, *moment) {
@@ -79,6 +96,34 @@ fn under<S: Scalar>(evaluation: &Evaluation<S>, moments: &[S]) -> State<S> {
         }
     }
     balanced
+}
+
+/// The teeter angle that balances the moments of the air on both blades of a seesaw.
+fn teeter<S: Scalar>(
+    evaluation: &Evaluation<S>,
+    freedom: &Freedom,
+    seesaw: &Seesaw,
+    blades: [(&BladePosition<S>, S); 2],
+) -> Option<S> {
+    let hinge = &evaluation.rotor.models().hinge;
+    let actions = blades.map(|(_, moment)| evaluation.action(moment));
+    let acceleration = |angle: S| {
+        let position = |k: usize, angle: S| {
+            let still = Flap {
+                angle: angle + hinge.precone,
+                rate: S::zero(),
+            };
+            BladePosition::new(blades[k].0.azimuth, still, S::zero())
+        };
+        let (one, two) = (position(0, angle), position(1, -angle));
+        let blades = [(&one, &actions[0]), (&two, &actions[1])];
+        seesaw.acceleration(hinge, &evaluation.flow, blades)
+    };
+    // Either blade may meet either stop.
+    let stops = &freedom.stops;
+    let most = (stops.highest - hinge.precone).min(hinge.precone - stops.lowest);
+    let most = most.min(FRAC_PI_2) + BEYOND_STOPS;
+    root_of(acceleration, -most, most)
 }
 
 /// The angle that balances the moment of the air on a blade at a position; none if no angle between
@@ -100,13 +145,18 @@ fn angle<S: Scalar>(
         let position = BladePosition::new(position.azimuth, still, S::zero());
         hinge.acceleration(&evaluation.flow, &position, &action)
     };
+    let low = freedom.stops.lowest.max(-FRAC_PI_2) - BEYOND_STOPS;
+    let high = freedom.stops.highest.min(FRAC_PI_2) + BEYOND_STOPS;
+    root_of(acceleration, low, high)
+}
+
+/// The angle between two others at which the acceleration is 0, if there is one.
+fn root_of<S: Scalar>(acceleration: impl Fn(S) -> S, low: f64, high: f64) -> Option<S> {
     let value = |angle: f64| acceleration(S::constant(angle)).value();
     let end = |at: f64| End {
         at,
         residual: value(at),
     };
-    let low = end(freedom.stops.lowest.max(-FRAC_PI_2) - BEYOND_STOPS);
-    let high = end(freedom.stops.highest.min(FRAC_PI_2) + BEYOND_STOPS);
-    let angle = root::bracketed(value, low, high, TOLERANCE).ok()?;
+    let angle = root::bracketed(value, end(low), end(high), TOLERANCE).ok()?;
     Some(S::at_root(angle, acceleration))
 }

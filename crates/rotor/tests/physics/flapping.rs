@@ -13,6 +13,7 @@ use rotor::{
     flapping::{BladeMass, Freedom, Hinge, Stops},
     geometry::{Geometry, Rotation},
     inflow::{ElementInflow, Inflow, Skew},
+    seesaw::Seesaw,
 };
 use std::f64::consts::PI;
 
@@ -34,6 +35,7 @@ struct Build {
     flaps: bool,
     blades_model: Blades,
     stops: Stops,
+    seesaw: Option<Seesaw>,
 }
 
 impl Default for Build {
@@ -50,6 +52,7 @@ impl Default for Build {
             flaps: true,
             blades_model: Blades::Automatic,
             stops: Stops::default(),
+            seesaw: None,
         }
     }
 }
@@ -65,6 +68,7 @@ impl Build {
             stops: self.stops,
         };
         let models = Models {
+            seesaw: self.seesaw,
             hinge: Hinge {
                 offset: self.offset,
                 precone: self.precone,
@@ -901,4 +905,255 @@ fn stops_that_are_not_met_change_no_bit() {
     let (with, without) = (at(wide), at(Stops::default()));
     assert!(without.0.flaps[0].angle.abs() > 0.01);
     assert_eq!(with, without);
+}
+
+// ------------------------------------------------------------------ seesaw
+
+/// Two blades on one hinge at the shaft.
+fn seesaw(precone: f64, undersling: f64, inertia: f64) -> Rotor {
+    Build {
+        precone,
+        inertia,
+        blades: 2,
+        seesaw: Some(Seesaw { undersling }),
+        ..Build::default()
+    }
+    .rotor()
+}
+
+/// The lever of a rod: its mass lies at 2/3 of the length that has its moments.
+const FIRST_MOMENT: f64 = 1.5 * INERTIA;
+const MASS: f64 = 3.0 * INERTIA;
+
+/// The teeter angle at each step of the azimuth, of a seesaw let go at an angle.
+fn teetering(rotor: &Rotor, point: &OperatingPoint, precone: f64, count: usize) -> Vec<f64> {
+    let mut state = State::default();
+    let amplitude = 1e-3;
+    (state.flaps[0].angle, state.flaps[1].angle) = (precone + amplitude, precone - amplitude);
+    let states = motion(rotor, point, state, count);
+    let angles = states.iter().map(|state| {
+        let [one, two] = [0, 1].map(|k| state.flaps[k].angle);
+        close(one + two, 2.0 * precone, 1e-14, "the blades are one body");
+        (one - two) / 2.0
+    });
+    angles.collect()
+}
+
+/// A rigid body of the moments A about the teeter axis, B along the blades and C about the shaft
+/// teeters at Omega sqrt((C - B)/A) (Goldstein 1980, eq. 5-39). The moments are integrals over two
+/// rods that rise at the precone from a point below the hinge.
+#[test]
+fn a_seesaw_teeters_at_the_frequency_of_its_moments_of_inertia() {
+    for (precone, undersling, spring) in [
+        (0.0, 0.0, 0.0),
+        (0.0, 0.0, 100.0),
+        (0.1, 0.0, 0.0),
+        (0.1, 0.05, 0.0),
+        (0.1, 0.05, 100.0),
+        (0.05, -0.03, 0.0),
+    ] {
+        let rotor = seesaw(precone, undersling, INERTIA);
+        let point = OperatingPoint {
+            hinge_spring: spring,
+            ..airless(1e-9)
+        };
+        let (sin, cos) = f64::sin_cos(precone);
+        let high = INERTIA * sin * sin - 2.0 * undersling * FIRST_MOMENT * sin
+            + MASS * undersling * undersling;
+        let wide = INERTIA * cos * cos;
+        let stiffness = (wide - high) * SPEED * SPEED + spring;
+        let nu = (stiffness / (wide + high)).sqrt() / SPEED;
+        let angles = teetering(&rotor, &point, precone, 1500);
+        for (i, angle) in angles.iter().enumerate() {
+            let expected = 1e-3 * (nu * STEP * i as f64).cos();
+            let what = format!("precone {precone}, u {undersling}, k {spring}, step {i}");
+            close(*angle, expected, 2e-6, &what);
+        }
+    }
+}
+
+/// On a rotor that does not turn it swings as a compound pendulum about the hinge: its weight times
+/// the depth of its centre of mass over its moment of inertia.
+#[test]
+fn an_underslung_seesaw_hangs_as_a_pendulum() {
+    let undersling = 0.2;
+    let rotor = seesaw(0.0, undersling, INERTIA);
+    let point = OperatingPoint {
+        speed: 0.0,
+        gravity: Vector3::new(0.0, 0.0, -STANDARD_GRAVITY),
+        ..airless(1e-9)
+    };
+    let depth = MASS * STANDARD_GRAVITY * undersling;
+    let frequency = (depth / (INERTIA + MASS * undersling * undersling)).sqrt();
+    let angles = teetering(&rotor, &point, 0.0, 2000);
+    for (i, angle) in angles.iter().enumerate() {
+        let expected = 1e-3 * (frequency * STEP / SPEED * i as f64).cos();
+        close(*angle, expected, 2e-6, &format!("step {i}"));
+    }
+    // On a shaft that leans by 0.1 rad it still hangs straight down.
+    let lean = 0.1_f64;
+    let point = OperatingPoint {
+        gravity: Vector3::new(lean.sin(), 0.0, -lean.cos()) * STANDARD_GRAVITY,
+        ..point
+    };
+    let mut workspace = Workspace::new(&rotor);
+    let started = rotor
+        .start(&point, Start::Steady, STEP, &mut workspace)
+        .unwrap();
+    // What hangs below the hinge swings forward, so that blade 1, over the tail, goes down.
+    close(started.state.flaps[0].angle, -lean, 1e-9, "blade 1");
+    close(started.state.flaps[1].angle, lean, 1e-9, "blade 2");
+}
+
+/// Harmonic balance of the blade's moment in linear aerodynamics and uniform inflow, without
+/// reversed flow: with U_T = r + mu sin psi and U_P = lambda + r beta' + mu beta cos psi, the first
+/// harmonics of the integral of (theta U_T^2 - U_P U_T) r dr are 0 for a flapping frequency of
+/// 1/rev, so that
+///
+/// ```text
+/// a1 = mu (8/3 theta - 2 lambda)/(1 - mu^2/2),   b1 = 4/3 mu a0/(1 + mu^2/2)
+/// ```
+///
+/// (as in Bramwell 1976, "Helicopter Dynamics", ch. 5). They do not depend on the Lock number: the
+/// coning a0 of a seesaw is its precone. The theory's inflow is constant; that of two blades varies
+/// twice per revolution with their thrust, for which 1 % of a1 is allowed.
+#[test]
+fn a_seesaw_flaps_at_mu_0_2_as_in_theory_whatever_its_lock_number() {
+    let (mu, theta) = (0.2, 0.1);
+    for precone in [0.0, 0.04] {
+        let mut found = Vec::new();
+        for inertia in [0.5 * INERTIA, INERTIA, 2.0 * INERTIA] {
+            let rotor = seesaw(precone, 0.0, inertia);
+            let point = flight(theta, Vector3::new(mu * SPEED, 0.0, 0.0));
+            let mut workspace = Workspace::new(&rotor);
+            let started = rotor
+                .start(&point, Start::Steady, STEP, &mut workspace)
+                .unwrap();
+            assert!(started.is_found);
+            let states = motion(&rotor, &point, started.state, 0);
+            let turns = motion(
+                &rotor,
+                &point,
+                states[0],
+                (2.0 * PI / STEP).round() as usize,
+            );
+            let count = turns.len() - 1;
+            let (mut a1, mut b1, mut lambda) = (0.0, 0.0, 0.0);
+            for state in &turns[..count] {
+                let loads = hub_loads(&rotor, &point, state);
+                let psi = state.azimuth;
+                a1 -= 2.0 * (state.flaps[0].angle - precone) * psi.cos() / count as f64;
+                b1 -= 2.0 * (state.flaps[0].angle - precone) * psi.sin() / count as f64;
+                lambda += loads.induced_velocity / SPEED / count as f64;
+                // Only a spring could hold the hub. The torque of the tilted disc is left out.
+                let moment = loads.moment.x.hypot(loads.moment.y);
+                let scale = loads.force.z * 1.0;
+                assert!(moment <= 2e-3 * scale, "{moment} N.m of {scale}");
+                close(loads.tip_path.coning, precone, 1e-12, "coning");
+            }
+            found.push((a1, b1));
+            let expected = mu * (8.0 / 3.0 * theta - 2.0 * lambda) / (1.0 - mu * mu / 2.0);
+            close(a1, expected, 0.03 * expected, &format!("a1, I {inertia}"));
+            let expected = 4.0 / 3.0 * mu * precone / (1.0 + mu * mu / 2.0);
+            let tolerance = 0.03 * expected + 0.01 * a1;
+            close(b1, expected, tolerance, &format!("b1, I {inertia}"));
+        }
+        let small = 0.01 * found[1].0;
+        for (a1, b1) in &found {
+            close(*a1, found[1].0, small, "a1 by Lock number");
+            close(*b1, found[1].1, small, "b1 by Lock number");
+        }
+    }
+}
+
+/// The seesaw's spring alone holds the hub: N/2 k a1 on average, with N = 2 (Johnson 1980, section
+/// 5-13, without offset).
+#[test]
+fn the_steady_hub_moment_of_a_seesaw_is_that_of_its_springs() {
+    for spring in [0.0, 60.0] {
+        let rotor = seesaw(0.03, 0.02, INERTIA);
+        let point = OperatingPoint {
+            hinge_spring: spring,
+            ..flight(0.1, Vector3::new(0.2 * SPEED, 0.0, 0.0))
+        };
+        let mut workspace = Workspace::new(&rotor);
+        let started = rotor
+            .start(&point, Start::Steady, STEP, &mut workspace)
+            .unwrap();
+        assert!(started.is_found);
+        let turns = motion(
+            &rotor,
+            &point,
+            started.state,
+            (2.0 * PI / STEP).round() as usize,
+        );
+        let count = turns.len() - 1;
+        let (mut moment, mut spring_moment) = (Vector3::zeros(), Vector3::zeros());
+        let (mut a1, mut thrust) = (0.0, 0.0);
+        for state in &turns[..count] {
+            let loads = hub_loads(&rotor, &point, state);
+            moment += loads.moment / count as f64;
+            thrust += loads.force.z / count as f64;
+            let teeter = (state.flaps[0].angle - state.flaps[1].angle) / 2.0;
+            a1 -= 2.0 * teeter * state.azimuth.cos() / count as f64;
+            // About the teeter axis, which turns with the blades.
+            let (sin, cos) = state.azimuth.sin_cos();
+            let axis = Vector3::new(-sin, cos, 0.0);
+            spring_moment += axis * (2.0 * spring * teeter) / count as f64;
+        }
+        assert!(a1 > 0.01, "{a1}");
+        for i in [0, 1] {
+            close(
+                moment[i],
+                spring_moment[i],
+                2e-3 * thrust,
+                &format!("moment {i}"),
+            );
+        }
+        if spring > 0.0 {
+            close(moment.y, -spring * a1, 0.1 * spring * a1, "N/2 k a1");
+        }
+    }
+}
+
+/// A stiff spring takes the exponential method, whose slopes are those of the seesaw.
+#[test]
+fn a_stiff_seesaw_is_integrated_as_exactly_as_a_soft_one() {
+    let rotor = Build {
+        blades: 2,
+        elements: 10,
+        seesaw: Some(Seesaw::default()),
+        ..Build::default()
+    }
+    .rotor();
+    let point = OperatingPoint {
+        hinge_spring: 1e6 * INERTIA * SPEED * SPEED,
+        ..flight(0.05, Vector3::new(0.1 * SPEED, 0.0, 0.0))
+    };
+    let mut workspace = Workspace::new(&rotor);
+    let mut state = State {
+        azimuth: 0.3,
+        ..State::default()
+    };
+    state.flaps[0].angle = 1e-3;
+    state.flaps[1].angle = -1e-3;
+    let duration = STEP / SPEED;
+    assert!(rotor.division(&point, &state, duration).is_stiff());
+    let first = rotor.rates(&point, &state, &mut workspace).unwrap();
+    let step = rotor.stiff_step_from(&first, |_| point, &state, duration, &mut workspace);
+    let step = step.unwrap().expect("accurate");
+    let count = 2000;
+    let mut fine = state;
+    for _ in 0..count {
+        let part = duration / f64::from(count);
+        fine = rotor.step(|_| point, &fine, part, &mut workspace).unwrap();
+    }
+    for k in [0, 1] {
+        close(
+            step.end.flaps[k].angle,
+            fine.flaps[k].angle,
+            1e-6,
+            &format!("blade {k}"),
+        );
+    }
 }

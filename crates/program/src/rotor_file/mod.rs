@@ -1,0 +1,8 @@
+//! Rotor definition files: checking one, and writing a new one.
+
+mod check;
+mod drawing;
+mod new;
+
+pub use check::Check;
+pub use new::New;
