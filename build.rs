@@ -1,11 +1,13 @@
 //! Makes modelDescription.xml, the Rust constants of the variables and the documentation's tables
-//! from `modelDescription/*.toml`, so that the three always agree.
+//! from `modelDescription/*.toml`, so that the three always agree, and a table of the resources.
 
 #[path = "build/table.rs"]
 mod table;
 
 #[path = "build/html.rs"]
 mod html;
+#[path = "build/resources.rs"]
+mod resources;
 #[path = "build/rust.rs"]
 mod rust;
 #[path = "build/xml.rs"]
@@ -15,9 +17,10 @@ use std::{env, error::Error, fs, path::Path};
 
 const VARIABLES: &str = "modelDescription/variables.toml";
 const UNITS: &str = "modelDescription/units.toml";
+const RESOURCES: &str = "modelDescription/resources";
 
 fn main() -> Result<(), Box<dyn Error>> {
-    for input in ["build.rs", "build", VARIABLES, UNITS] {
+    for input in ["build.rs", "build", VARIABLES, UNITS, RESOURCES] {
         println!("cargo::rerun-if-changed={input}");
     }
     let out = env::var("OUT_DIR")?;
@@ -32,5 +35,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     )?;
     fs::write(out.join("variables.rs"), rust::constants(&table, &guid)?)?;
     fs::write(out.join("variables.html"), html::tables(&table))?;
+    fs::write(
+        out.join("resources.rs"),
+        resources::table(Path::new(RESOURCES))?,
+    )?;
     Ok(())
 }

@@ -3,6 +3,7 @@
 use super::{
     files::{FileHash, ReadFile},
     location::resolve,
+    resource_files,
     setup::SetupError,
     values::Values,
     variables::string,
@@ -11,18 +12,16 @@ use rotor::{
     airfoil::{Airfoil, Lift},
     geometry::Geometry,
 };
-use std::{fs, path::Path};
+use std::path::Path;
 
 /// The airfoils in the FMU with the names by which `airfoil.file` finds them; those that cannot be
 /// read are left out.
 pub fn shipped(resources: &Path) -> Vec<(String, Airfoil)> {
-    let entries = fs::read_dir(resources.join("airfoils"))
-        .into_iter()
-        .flatten();
-    let airfoils = entries.flatten().filter_map(|entry| {
-        let name = entry.file_name().into_string().ok()?;
-        let airfoil = Airfoil::read(&entry.path()).ok()?;
-        Some((format!("airfoils/{name}"), airfoil))
+    let airfoils = resource_files::names(resources, "airfoils").into_iter();
+    let airfoils = airfoils.filter_map(|name| {
+        let name = format!("airfoils/{name}");
+        let (airfoil, _) = resource_files::airfoil(&resources.join(&name)).ok()?;
+        Some((name, airfoil))
     });
     airfoils.collect()
 }
@@ -45,7 +44,7 @@ pub fn read_airfoils(
             &values.strings[string::AIRFOIL__FILE]
         };
         let path = resolve(resources, "airfoils", name);
-        let (airfoil, hash) = Airfoil::read_with_hash(&path).map_err(|cause| {
+        let (airfoil, hash) = resource_files::airfoil(&path).map_err(|cause| {
             if has_own {
                 SetupError::StationAirfoil {
                     name: values.strings[string::GEOMETRY__FILE].clone(),

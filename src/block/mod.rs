@@ -11,7 +11,8 @@
 //! * `model_exchange`, `state_vector`: states and derivatives for an importer that integrates
 //! * `derivative`: directional derivatives
 //! * `snapshot`: the block's state, saved and restored
-//! * `location`, `files`: where files are, and whether they have changed
+//! * `location`, `resource_files`, `files`: where files are, what is in them, and whether they have
+//!   changed
 //! * `shown`, `outside_data`, `plausibility`, `beyond_stops`: texts for messages
 
 mod airfoils;
@@ -33,6 +34,7 @@ mod outside_data;
 mod plausibility;
 mod ramp;
 mod references;
+mod resource_files;
 mod setting;
 mod settings;
 mod setup;

@@ -5,6 +5,7 @@ use super::{
     airfoils::read_airfoils,
     files::{FileHash, ReadFile},
     location::resolve,
+    resource_files,
     values::Values,
     variables::{
         BladesModel, CompressibilityModel, DescentModel, GroundEffectModel, InflowModel,
@@ -98,7 +99,7 @@ fn geometry(
     if !name.is_empty() {
         let path = resolve(resources, "rotors", name);
         let name = name.to_owned();
-        let (geometry, hash) = match Geometry::read_with_hash(&path) {
+        let (geometry, hash) = match resource_files::geometry(&path) {
             Ok(read) => read,
             Err(cause) => return Err(SetupError::RotorFile { name, cause }),
         };
