@@ -106,7 +106,13 @@ class Rotor {
         const callbacks = this.numbers(Uint32Array, [this.logger(), 0, 0, 0, 0]);
         const { guid } = this.description;
         this.component = this.exports.fmi2Instantiate(
-            this.text("rotor"), CO_SIMULATION, this.text(guid), this.text(""), callbacks, 0, 0,
+            this.text("rotor"),
+            CO_SIMULATION,
+            this.text(guid),
+            this.text(""),
+            callbacks,
+            0,
+            0,
         );
         if (!this.component) throw new RotorError(this.messages.pop() ?? "There is no instance.");
     }
@@ -116,10 +122,42 @@ class Rotor {
     // own functions into such a table, but those that another module imports and exports.
     logger() {
         const shim = Uint8Array.of(
-            0, 97, 115, 109, 1, 0, 0, 0, // WebAssembly, version 1
-            1, 10, 1, 96, 6, 127, 127, 127, 127, 127, 127, 0, // type 0: six integers, no result
-            2, 7, 1, 1, 101, 1, 102, 0, 0, // import function 0 of type 0 as e.f
-            7, 5, 1, 1, 102, 0, 0, // export it as f
+            0,
+            97,
+            115,
+            109,
+            1,
+            0,
+            0,
+            0, // WebAssembly, version 1
+            1,
+            10,
+            1,
+            96,
+            6,
+            127,
+            127,
+            127,
+            127,
+            127,
+            127,
+            0, // type 0: six integers, no result
+            2,
+            7,
+            1,
+            1,
+            101,
+            1,
+            102,
+            0,
+            0, // import function 0 of type 0 as e.f
+            7,
+            5,
+            1,
+            1,
+            102,
+            0,
+            0, // export it as f
         );
         const log = (_environment, _instance, status, _category, message) => {
             // The message is the format of a printf.
@@ -140,7 +178,10 @@ class Rotor {
     }
 
     references(names) {
-        return this.numbers(Uint32Array, names.map((name) => this.variable(name).reference));
+        return this.numbers(
+            Uint32Array,
+            names.map((name) => this.variable(name).reference),
+        );
     }
 
     // Sets parameters or inputs, {name: value}; enumerations by the names of their items.
@@ -161,7 +202,12 @@ class Rotor {
         }
         if (reals.length === 0) return;
         this.call("fmi2SetReal", () => [
-            this.references(reals), reals.length, this.numbers(Float64Array, reals.map((name) => values[name])),
+            this.references(reals),
+            reals.length,
+            this.numbers(
+                Float64Array,
+                reals.map((name) => values[name]),
+            ),
         ]);
     }
 

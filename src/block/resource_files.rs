@@ -6,10 +6,7 @@ use rotor::{
     geometry::{Geometry, RotorFileError},
     hash_of_text,
 };
-use std::{
-    fs,
-    path::Path,
-};
+use std::{fs, path::Path};
 
 /// Name below the folder of the resources, and text.
 #[cfg(any(target_family = "wasm", test))]

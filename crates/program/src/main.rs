@@ -6,6 +6,7 @@ mod examples;
 mod files;
 mod output;
 mod package;
+mod page;
 mod process;
 mod progress;
 mod python;
@@ -54,6 +55,15 @@ enum Command {
         out: Option<PathBuf>,
         #[command(flatten)]
         selection: package::Selection,
+    },
+    /// Make the page: the rotor in a browser, as one HTML file that needs no server
+    ///
+    /// Builds the FMU's library in WebAssembly, for which Rust's standard library must be installed:
+    /// `rustup target add wasm32-unknown-unknown`.
+    Page {
+        /// The HTML file to write [default: target/page/HelicopterRotor.html]
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
     },
     /// Run the examples in fmu-examples/: tables and pictures of systems that contain the rotor
     Examples {
@@ -155,6 +165,11 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
             // Refused before the library is built.
             draft::place_of_file(&out)?;
             package::write(&out, &selection.contents(given, &target)?)?;
+            output::print(format_args!("Made {}", out.display()))
+        }
+        Some(Command::Page { out }) => {
+            let out = out.unwrap_or_else(|| target.join("page").join("HelicopterRotor.html"));
+            page::write(&out, &target)?;
             output::print(format_args!("Made {}", out.display()))
         }
         Some(Command::Examples { names, out }) => {

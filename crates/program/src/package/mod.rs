@@ -14,6 +14,7 @@ pub mod library;
 mod platform;
 mod selection;
 
+pub use cross::web as web_library;
 pub use selection::{Contents, Selection};
 
 use crate::{
@@ -81,8 +82,12 @@ fn archive(out: impl Write + Seek, contents: &Contents) -> Result<(), Failure> {
             &binary.0,
         )?;
     }
-    let page = documentation::page(&read("documentation/index.html")?)?;
-    add("documentation/index.html", page.as_bytes())?;
+    let has_page = contents.page.is_some();
+    let index = documentation::page(&read("documentation/index.html")?, has_page)?;
+    add("documentation/index.html", index.as_bytes())?;
+    if let Some(page) = &contents.page {
+        add(documentation::PAGE_IN_ARCHIVE, page.as_bytes())?;
+    }
     for name in FILES {
         add(name, &read(name)?)?;
     }
