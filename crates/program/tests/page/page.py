@@ -96,7 +96,10 @@ class ThePage(unittest.TestCase):
         problems = []
         page.on("pageerror", lambda error: problems.append(str(error)))
         page.on("console", lambda message: problems.append(message.text))
-        page.on("request", lambda request: problems.append(request.url) if is_other(request.url) else None)
+        page.on(
+            "request",
+            lambda request: problems.append(request.url) if is_other(request.url) else None,
+        )
         if script:
             page.add_init_script(script)
         page.goto(f"{ARGUMENTS.page.resolve().as_uri()}#{link}")
@@ -195,7 +198,9 @@ class ThePage(unittest.TestCase):
 
     def test_power_has_its_bucket_and_the_trimmed_flight_lies_on_it(self):
         with self.opened() as page:
-            curve = page.evaluate("page.results.power.points.map(({ speed, watts }) => [speed, watts])")
+            curve = page.evaluate(
+                "page.results.power.points.map(({ speed, watts }) => [speed, watts])"
+            )
             self.assertGreaterEqual(len(curve), 14)
             hover, least, last = curve[0][1], min(p for _, p in curve), curve[-1][1]
             self.assertLess(least, 0.65 * hover)
