@@ -1,5 +1,6 @@
 //! Makes modelDescription.xml of FMI 2.0 and of FMI 3.0, the Rust constants of the variables and the
-//! documentation's tables from `modelDescription/*.toml`, so that they always agree.
+//! documentation's tables from `modelDescription/*.toml`, so that they always agree, and a table of
+//! the resources.
 
 #[path = "build/table.rs"]
 mod table;
@@ -10,6 +11,8 @@ mod arrays;
 mod dependencies;
 #[path = "build/html.rs"]
 mod html;
+#[path = "build/resources.rs"]
+mod resources;
 #[path = "build/rust.rs"]
 mod rust;
 #[path = "build/xml/mod.rs"]
@@ -20,9 +23,11 @@ use std::{env, error::Error, fs, path::Path};
 const VARIABLES: &str = "modelDescription/variables.toml";
 const UNITS: &str = "modelDescription/units.toml";
 const TERMINALS: &str = "modelDescription/terminals.toml";
+const RESOURCES: &str = "modelDescription/resources";
 
 fn main() -> Result<(), Box<dyn Error>> {
-    for input in ["build.rs", "build", VARIABLES, UNITS, TERMINALS] {
+    let inputs = ["build.rs", "build", VARIABLES, UNITS, TERMINALS, RESOURCES];
+    for input in inputs {
         println!("cargo::rerun-if-changed={input}");
     }
     let out = env::var("OUT_DIR")?;
@@ -44,5 +49,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     let constants = rust::constants(&table, &grouped, &guid, &token)?;
     fs::write(out.join("variables.rs"), constants)?;
     fs::write(out.join("variables.html"), html::tables(&table))?;
+    fs::write(
+        out.join("resources.rs"),
+        resources::table(Path::new(RESOURCES))?,
+    )?;
     Ok(())
 }

@@ -3,6 +3,7 @@
 use super::{
     files::{FileHash, ReadFile},
     location::resolve,
+    resource_files,
     setup::SetupError,
     values::Values,
     variables::string,
@@ -11,18 +12,16 @@ use rotor::{
     airfoil::{Airfoil, Lift},
     geometry::Geometry,
 };
-use std::{fs, path::Path};
+use std::path::Path;
 
 /// The airfoils in the FMU with the names by which `airfoil.file` finds them; those that cannot be
 /// read are left out.
 pub fn shipped(resources: &Path) -> Vec<(String, Airfoil)> {
-    let entries = fs::read_dir(resources.join("airfoils"))
-        .into_iter()
-        .flatten();
-    let airfoils = entries.flatten().filter_map(|entry| {
-        let name = entry.file_name().into_string().ok()?;
-        let airfoil = Airfoil::read(&entry.path()).ok()?;
-        Some((format!("airfoils/{name}"), airfoil))
+    let airfoils = resource_files::names(resources, "airfoils").into_iter();
+    let airfoils = airfoils.filter_map(|name| {
+        let name = format!("airfoils/{name}");
+        let (airfoil, _) = resource_files::airfoil(&resources.join(&name)).ok()?;
+        Some((name, airfoil))
     });
     airfoils.collect()
 }
@@ -51,11 +50,11 @@ pub fn read_airfoils(
         let is_of_file = has_own || values.from_file.gave(string::AIRFOIL__FILE);
         let folder = folder.as_deref().filter(|_| is_of_file);
         let beside = folder.map(|folder| folder.join(name));
-        let path = match beside.filter(|path| path.is_file()) {
+        let path = match beside.filter(|path| resource_files::is_file(path)) {
             Some(path) => path,
             None => resolve(resources, "airfoils", name),
         };
-        let (airfoil, hash) = Airfoil::read_with_hash(&path).map_err(|cause| {
+        let (airfoil, hash) = resource_files::airfoil(&path).map_err(|cause| {
             if has_own {
                 SetupError::StationAirfoil {
                     name: values.strings[string::GEOMETRY__FILE].clone(),

@@ -1,5 +1,6 @@
 //! Where files are: `file:` URIs, and names relative to the FMU's resources.
 
+use super::resource_files::is_file;
 use std::path::{Path, PathBuf};
 
 /// The path in a `file:` URI (`file:/x`, `file:///x`, `file://localhost/x`, percent-encoded
@@ -83,7 +84,7 @@ pub fn resolve(resources: &Path, folder: &str, name: &str) -> PathBuf {
         return path;
     }
     let in_folder = resources.join(folder).join(name);
-    if in_folder.is_file() {
+    if is_file(&in_folder) {
         return in_folder;
     }
     resources.join(name) // `join` keeps an absolute path as it is

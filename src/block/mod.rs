@@ -13,7 +13,8 @@
 //! * `model_exchange`, `state_vector`: states and derivatives for an importer that integrates
 //! * `derivative`: directional derivatives
 //! * `snapshot`: the block's state, saved and restored
-//! * `location`, `files`: where files are, and whether they have changed
+//! * `location`, `resource_files`, `files`: where files are, what is in them, and whether they have
+//!   changed
 //! * `shown`, `outside_data`, `plausibility`, `beyond_stops`: texts for messages
 
 mod airfoils;
@@ -38,6 +39,7 @@ mod parted_step;
 mod plausibility;
 mod ramp;
 mod references;
+mod resource_files;
 mod rotor_file;
 mod setting;
 mod settings;

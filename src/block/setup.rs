@@ -5,6 +5,7 @@ use super::{
     airfoils::read_airfoils,
     files::{FileHash, ReadFile},
     location::resolve,
+    resource_files,
     rotor_file::{self, Taken},
     values::Values,
     variables::{
@@ -18,9 +19,7 @@ use rotor::{
     airfoil::{AirfoilError, Lift, SectionModel},
     compressibility::Compressibility,
     flapping::{BladeMass, Freedom, Hinge, Stops},
-    geometry::{
-        self, BladeInertia, Elements, Geometry, GeometryError, RotorDefinition, RotorFileError,
-    },
+    geometry::{self, BladeInertia, Elements, Geometry, GeometryError, RotorFileError},
     inflow::{Descent, ElementInflow, GroundEffect, Inflow, Skew},
     seesaw::Seesaw,
     state::MAX_FLAPPING_BLADES,
@@ -125,7 +124,7 @@ fn geometry(
     if !name.is_empty() {
         let path = resolve(resources, "rotors", name);
         let name = name.to_owned();
-        let definition = match RotorDefinition::read(&path) {
+        let definition = match resource_files::rotor(&path) {
             Ok(read) => read,
             Err(cause) => return Err(SetupError::RotorFile { name, cause }),
         };

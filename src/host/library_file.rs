@@ -6,6 +6,7 @@
 use std::path::PathBuf;
 
 /// Lies in this library.
+#[cfg(any(unix, windows))]
 static INSIDE: u8 = 0;
 
 /// The file of this shared library, if the system tells.

@@ -22,6 +22,7 @@ const EXAMPLES: &[(&str, &str)] = &[
     ("rotor-map", "rotor_map/rotor_map.py"),
     // It takes the map of rotor-map.
     ("surrogate", "rotor_map/surrogate.py"),
+    ("modelica", "modelica/check.py"),
     ("notebook", "notebook/execute.py"),
     ("complete-model", "complete_model.py"),
     ("forward-flight", "forward_flight.py"),

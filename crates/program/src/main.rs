@@ -6,6 +6,7 @@ mod examples;
 mod files;
 mod output;
 mod package;
+mod page;
 mod polar;
 mod process;
 mod progress;
@@ -69,6 +70,15 @@ enum Command {
     Check(rotor_file::Check),
     /// Write a commented rotor file
     New(rotor_file::New),
+    /// Make the page: the rotor in a browser, as one HTML file that needs no server
+    ///
+    /// Builds the FMU's library in WebAssembly, for which Rust's standard library must be installed:
+    /// `rustup target add wasm32-unknown-unknown`.
+    Page {
+        /// The HTML file to write [default: target/page/HelicopterRotor.html]
+        #[arg(long, value_name = "FILE")]
+        out: Option<PathBuf>,
+    },
     /// Run the examples in fmu-examples/: tables and pictures of systems that contain the rotor
     Examples {
         /// Run only these
@@ -188,6 +198,11 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
         Some(Command::Polar(_)) => Ok(()),
         Some(Command::Check(check)) => check.run(),
         Some(Command::New(new)) => new.run(),
+        Some(Command::Page { out }) => {
+            let out = out.unwrap_or_else(|| target.join("page").join("HelicopterRotor.html"));
+            page::write(&out, &target)?;
+            output::print(format_args!("Made {}", out.display()))
+        }
         Some(Command::Examples { names, out }) => {
             let out = out.unwrap_or_else(|| target.join("examples"));
             let fmu = out.join("HelicopterRotor.fmu");

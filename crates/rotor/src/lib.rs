@@ -107,6 +107,7 @@ pub use start::{Start, Started};
 pub use state::State;
 pub use step::Division;
 pub use stiff_step::StiffStep;
+pub use text_file::hash_of_text;
 pub use tip_path::TipPath;
 pub use work::Work;
 pub use workspace::Workspace;

@@ -87,16 +87,16 @@ fn content(file: File, max_bytes: u64) -> Result<TextFile, String> {
         text.drain(..'\u{feff}'.len_utf8());
     }
     Ok(TextFile {
-        hash: hash(text.as_bytes()),
+        hash: hash_of_text(&text),
         text,
     })
 }
 
 /// FNV-1a with 64 bits, by Fowler, Noll and Vo (1991): the same on every platform. It finds
 /// changes by accident; it is no protection against forgery.
-fn hash(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
-        (hash ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3)
+pub fn hash_of_text(text: &str) -> u64 {
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, |hash, byte| {
+        (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3)
     })
 }
 
@@ -119,7 +119,7 @@ mod tests {
             ("a", 0xaf63_dc4c_8601_ec8c),
             ("foobar", 0x8594_4171_f739_67e8),
         ] {
-            assert_eq!(hash(text.as_bytes()), value, "{text}");
+            assert_eq!(hash_of_text(text), value, "{text}");
         }
     }
 

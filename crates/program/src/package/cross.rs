@@ -1,5 +1,5 @@
-//! Libraries for other platforms and for other machines of this one: the targets, linkers and
-//! options with which cargo builds them. The same source and compiler give the same bytes in every
+//! Libraries for other platforms, for other machines of this one, and for browsers: the targets,
+//! linkers and options with which cargo builds them. The same source and compiler give the same bytes in every
 //! folder.
 
 use super::{
@@ -45,19 +45,20 @@ fn linux(platform: Platform, target: &'static str, folder: &Path) -> Result<Bina
         "{platform} needs cargo-zigbuild on the PATH, which links for glibc {GLIBC}; install it with `pip install ziglang cargo-zigbuild`, or name a built library with --binary {platform}=FILE"
     );
     process::run_quietly(version.arg("--version"), LIMIT).map_err(failed(missing))?;
-    let build = Build::new(platform, target)?;
+    let build = Build::for_platform(platform, target)?;
     let mut command = Command::new("cargo-zigbuild");
     command.args(["rustc", "--target", &format!("{target}.{GLIBC}")]);
-    build.run(command, folder)
+    build.binary(platform, command, folder)
 }
 
 fn windows(folder: &Path) -> Result<Binary, Failure> {
     let platform = Platform::Win64;
     if cfg!(all(windows, target_env = "msvc")) {
-        let mut build = Build::new(platform, "x86_64-pc-windows-msvc")?;
+        let target = "x86_64-pc-windows-msvc";
+        let mut build = Build::for_platform(platform, target)?;
         // Needs no runtime of Visual C++.
         build.flags(["-Ctarget-feature=+crt-static", "-Clink-arg=/Brepro"]);
-        return build.run_cargo(folder);
+        return build.binary(platform, cargo(target), folder);
     }
     let target = "x86_64-pc-windows-gnu";
     let linkers = ["x86_64-w64-mingw32-gcc-win32", "x86_64-w64-mingw32-gcc"];
@@ -69,7 +70,7 @@ fn windows(folder: &Path) -> Result<Binary, Failure> {
             linkers[1]
         ))
     })?;
-    let mut build = Build::new(platform, target)?;
+    let mut build = Build::for_platform(platform, target)?;
     build.flags([
         &format!("-Clinker={linker}"),
         "-Clink-arg=-Wl,--no-insert-timestamp",
@@ -82,7 +83,7 @@ fn windows(folder: &Path) -> Result<Binary, Failure> {
     {
         build.flags([format!("-Lnative=/.{libraries}")]);
     }
-    build.run_cargo(folder)
+    build.binary(platform, cargo(target), folder)
 }
 
 /// On other systems the compiler's own linker is used, and a list of what macOS 11 has in the place
@@ -92,13 +93,13 @@ fn macos(target: &'static str, folder: &Path) -> Result<Binary, Failure> {
         true => Platform::Darwin64,
         false => Platform::Aarch64Darwin,
     };
-    let mut build = Build::new(platform, target)?;
+    let mut build = Build::for_platform(platform, target)?;
     let mut command = cargo(target);
     command.env("MACOSX_DEPLOYMENT_TARGET", MACOS);
     let name = format!("@rpath/{MODEL_IDENTIFIER}{}", platform.suffix());
     if cfg!(target_os = "macos") {
         build.flags([&format!("-Clink-arg=-Wl,-install_name,{name}")]);
-        return build.run(command, folder);
+        return build.binary(platform, command, folder);
     }
     let sdk = folder.join("MacOSX.sdk");
     files::make_folder(&sdk.join("usr/lib"))?;
@@ -115,7 +116,16 @@ fn macos(target: &'static str, folder: &Path) -> Result<Binary, Failure> {
         ["-S", "-x", "-dead_strip_dylibs", "-install_name", &name]
             .map(|argument| format!("-Clink-arg={argument}")),
     );
-    build.run(command, folder)
+    build.binary(platform, command, folder)
+}
+
+/// Builds the library in WebAssembly, for the page. Its table of functions is exported, and can
+/// grow by the importer's logger.
+pub fn web(target: &Path) -> Result<Vec<u8>, Failure> {
+    let triple = "wasm32-unknown-unknown";
+    let mut build = Build::new("the page", "", triple)?;
+    build.flags(["-Clink-arg=--export-table", "-Clink-arg=--growable-table"]);
+    files::read(&build.file(cargo(triple), &target.join("platforms"), ".wasm")?)
 }
 
 fn cargo(target: &str) -> Command {
@@ -126,22 +136,26 @@ fn cargo(target: &str) -> Command {
 
 /// How a library is built.
 struct Build {
-    platform: Platform,
     target: &'static str,
     flags: Vec<String>,
 }
 
 impl Build {
-    /// Fails if the compiler has no standard library for the target.
-    fn new(platform: Platform, target: &'static str) -> Result<Self, Failure> {
+    fn for_platform(platform: Platform, target: &'static str) -> Result<Self, Failure> {
+        let other = format!(", or name a built library with --binary {platform}=FILE");
+        Self::new(platform.folder(), &other, target)
+    }
+
+    /// Fails if the compiler has no standard library for the target, with what the user can do
+    /// besides installing it.
+    fn new(purpose: &str, other: &str, target: &'static str) -> Result<Self, Failure> {
         let folder = said_by(compiler().args(["--print", "target-libdir", "--target", target]))?;
         if !Path::new(&folder).is_dir() {
             return Err(Failure(format!(
-                "{platform} needs Rust's standard library for {target}; install it with `rustup target add {target}`, or name a built library with --binary {platform}=FILE"
+                "{purpose} needs Rust's standard library for {target}; install it with `rustup target add {target}`{other}"
             )));
         }
         Ok(Self {
-            platform,
             target,
             flags: vec![],
         })
@@ -152,13 +166,23 @@ impl Build {
             .extend(flags.map(|flag| flag.as_ref().to_owned()));
     }
 
-    fn run_cargo(self, folder: &Path) -> Result<Binary, Failure> {
-        let command = cargo(self.target);
-        self.run(command, folder)
+    fn binary(
+        self,
+        platform: Platform,
+        command: Command,
+        folder: &Path,
+    ) -> Result<Binary, Failure> {
+        binary::read(platform, &self.file(command, folder, platform.suffix())?)
     }
 
-    /// Runs a command of cargo that ends with the target.
-    fn run(mut self, mut command: Command, folder: &Path) -> Result<Binary, Failure> {
+    /// Runs a command of cargo that ends with the target, and returns the library that has this
+    /// ending.
+    fn file(
+        mut self,
+        mut command: Command,
+        folder: &Path,
+        suffix: &str,
+    ) -> Result<PathBuf, Failure> {
         for (from, to) in renamed_folders(self.target, folder)? {
             let flag = format!("--remap-path-prefix={}={to}", from.display());
             self.flags.push(flag);
@@ -168,8 +192,7 @@ impl Build {
             // Smaller files, as five of them go into one.
             .env("CARGO_PROFILE_RELEASE_LTO", "fat")
             .env("CARGO_ENCODED_RUSTFLAGS", self.flags.join("\x1f"));
-        let file = library::run(command, folder, self.platform.suffix())?;
-        binary::read(self.platform, &file)
+        library::run(command, folder, suffix)
     }
 }
 

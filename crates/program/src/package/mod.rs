@@ -16,6 +16,7 @@ mod own_rotor;
 mod platform;
 mod selection;
 
+pub use cross::web as web_library;
 pub use own_rotor::{Own, OwnRotor};
 pub use selection::{Contents, Selection};
 
@@ -150,8 +151,12 @@ fn archive(
             &binary.0,
         )?;
     }
-    let page = documentation::page(&read("documentation/index.html")?)?;
-    add("documentation/index.html", page.as_bytes())?;
+    let has_page = contents.page.is_some();
+    let index = documentation::page(&read("documentation/index.html")?, has_page)?;
+    add("documentation/index.html", index.as_bytes())?;
+    if let Some(page) = &contents.page {
+        add(documentation::PAGE_IN_ARCHIVE, page.as_bytes())?;
+    }
     let terminals = match version {
         Version::Two => description::TERMINALS,
         Version::Three => description::TERMINALS_OF_FMI3,

@@ -5,7 +5,7 @@ use super::{
     cross, library,
     platform::Platform,
 };
-use crate::Failure;
+use crate::{Failure, page};
 use clap::Args;
 use std::path::{Path, PathBuf};
 
@@ -25,6 +25,9 @@ pub struct Selection {
     /// Use this built library for a platform and do not build one; can be repeated
     #[arg(long, value_name = "PLATFORM=FILE")]
     binary: Vec<Given>,
+    /// Put the page for browsers into documentation/, too; with `--platforms all` it always is
+    #[arg(long)]
+    page: bool,
 }
 
 /// The platforms of the .fmu.
@@ -85,6 +88,8 @@ pub struct Contents {
     pub binaries: Vec<(Platform, Binary)>,
     /// The library in `linux64` is for ARM.
     pub is_for_arm_only: bool,
+    /// The page for browsers.
+    pub page: Option<String>,
 }
 
 impl Contents {
@@ -94,14 +99,25 @@ impl Contents {
         Ok(Self {
             binaries: vec![(host, binary::read(host, library)?)],
             is_for_arm_only: false,
+            page: None,
         })
     }
 }
 
 impl Selection {
-    /// The libraries: those that are given, and the others built. `library` is this machine's, if
+    /// The libraries, those that are given, and the others built; and the page. `library` is this machine's, if
     /// the user has named it; `target` is cargo's target folder.
     pub fn contents(self, library: Option<PathBuf>, target: &Path) -> Result<Contents, Failure> {
+        let is_for_all = Some(Wanted::Each(Platform::ALL.to_vec())) == self.platforms;
+        let has_page = self.page || is_for_all;
+        let mut contents = self.libraries(library, target)?;
+        if has_page {
+            contents.page = Some(page::make(target)?);
+        }
+        Ok(contents)
+    }
+
+    fn libraries(self, library: Option<PathBuf>, target: &Path) -> Result<Contents, Failure> {
         let mut given = self.binary;
         if self.platforms.is_none() && given.is_empty() {
             return Contents::of_host(&library.map_or_else(|| library::build(target), Ok)?);
@@ -155,6 +171,7 @@ impl Selection {
         Ok(Contents {
             binaries,
             is_for_arm_only,
+            page: None,
         })
     }
 }

@@ -77,6 +77,8 @@ fn the_archive_holds_what_an_importer_and_a_reader_expect() {
     ] {
         assert!(page.contains(name), "the page has no {name}");
     }
+    // Not there without `--page`.
+    assert!(!page.contains("rotor.html") && !files.contains_key("documentation/rotor.html"));
     assert!(
         !page.contains("<!--"),
         "a mark in the page was not replaced"

@@ -174,6 +174,16 @@ fn the_fmu_for_all_platforms_has_at_most_5_megabytes() {
     assert!(size <= 5_000_000, "{size} bytes");
 }
 
+#[test]
+#[ignore = "needs the .fmu that .ci/platforms makes"]
+fn the_fmu_for_all_platforms_has_the_page_for_browsers() {
+    let files = support::content(&for_all_platforms());
+    let page = String::from_utf8(files["documentation/rotor.html"].clone()).unwrap();
+    assert!(page.contains(r#"{"description":"<?xml "#) && !page.contains(" src="));
+    let index = String::from_utf8(files["documentation/index.html"].clone()).unwrap();
+    assert!(index.contains(r#"href="rotor.html""#));
+}
+
 /// The binaries by the name of their platform. The universal one is in its parts.
 fn binaries() -> Vec<(String, Vec<u8>)> {
     let mut binaries = Vec::new();

@@ -39,7 +39,7 @@ pub use given::{Given, GivenValue};
 pub use near::nearest;
 
 use super::{Geometry, GeometryError, Rotation, Station};
-use crate::text_file::{self, NoMemory, TextFile, ensure, excerpt};
+use crate::text_file::{self, NoMemory, TextFile, ensure, excerpt, hash_of_text};
 use core::ops::RangeInclusive;
 use given::FileParameters;
 use hub::FileFlapping;
@@ -160,6 +160,15 @@ impl RotorDefinition {
             }),
         }
     }
+
+    /// As `read`, from the text of a file at `path`, which is not read.
+    ///
+    /// # Errors
+    ///
+    /// As `read`.
+    pub fn from_text(text: &str, path: &Path) -> Result<Self, RotorFileError> {
+        parse(text, &path.display().to_string(), hash_of_text(text))
+    }
 }
 
 impl Geometry {
@@ -178,7 +187,7 @@ impl Geometry {
     ///
     /// As `read`.
     pub fn from_text(text: &str, path: &Path) -> Result<Self, RotorFileError> {
-        parse(text, &path.display().to_string(), 0).map(|definition| definition.geometry)
+        RotorDefinition::from_text(text, path).map(|definition| definition.geometry)
     }
 }
 
