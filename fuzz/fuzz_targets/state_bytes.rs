@@ -7,6 +7,7 @@
 
 #![no_main]
 
+use crc::{CRC_32_ISO_HDLC, Crc};
 use fuzz::{Instance, fail, finite, promise};
 use helicopter_rotor::{
     block::variables::{STATES, boolean, integer, real},
@@ -25,6 +26,9 @@ use std::{ptr, sync::OnceLock};
 /// Bytes of the head before the length: magic, version and GUID.
 const BEFORE_LENGTH: usize = 8 + 4 + 38;
 
+/// The checksum behind the content.
+static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
+
 const OK: fmi2Status = fmi2Status::Ok;
 
 /// A whole state with this content.
@@ -35,7 +39,7 @@ fn whole(content: &[u8]) -> Vec<u8> {
     let mut bytes = head.clone();
     bytes.extend((content.len() as u64).to_le_bytes());
     bytes.extend(content);
-    bytes.extend(crc32fast::hash(&bytes).to_le_bytes());
+    bytes.extend(CRC.checksum(&bytes).to_le_bytes());
     bytes
 }
 

@@ -17,12 +17,15 @@ use super::{
     },
 };
 use crate::block::{Contradiction, Stage, variables::GUID};
+use crc::{CRC_32_ISO_HDLC, Crc};
 use thiserror::Error;
 
 const MAGIC: [u8; 8] = *b"HelRotor";
 const VERSION: u32 = 4;
 const HEAD: usize = MAGIC.len() + 4 + GUID.len() + 8;
 const CHECKSUM: usize = 4;
+/// The checksum of zip and PNG, with a table of 1 kB.
+static CRC: Crc<u32> = Crc::<u32>::new(&CRC_32_ISO_HDLC);
 /// More bytes than any state has, with texts as long as they may be.
 const LONGEST: usize = 1 << 20;
 
@@ -81,7 +84,7 @@ impl FmuState {
         bytes.extend_from_slice(self.version.token().as_bytes());
         bytes.extend_from_slice(&(content.len() as u64).to_le_bytes());
         bytes.extend_from_slice(&content);
-        bytes.extend_from_slice(&crc32fast::hash(&bytes).to_le_bytes());
+        bytes.extend_from_slice(&CRC.checksum(&bytes).to_le_bytes());
         Ok(bytes)
     }
 
@@ -176,7 +179,7 @@ fn content(bytes: &[u8], fmi: Version) -> Result<&[u8], DecodeError> {
         return Err(DecodeError::Length { given, length });
     }
     let (body, checksum) = bytes.split_at(given - CHECKSUM);
-    if crc32fast::hash(body).to_le_bytes() != *checksum {
+    if CRC.checksum(body).to_le_bytes() != *checksum {
         return Err(DecodeError::Checksum);
     }
     Ok(&body[HEAD..])

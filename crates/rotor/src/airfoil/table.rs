@@ -7,7 +7,7 @@ use super::{
     lookup::Lookup,
 };
 use crate::{
-    numbers::{C, LANES, Lanes, Mask, Scalar},
+    numbers::{C, LANES, Lanes, Mask, PerLane, Portable, Scalar},
     text_file::{collect, push},
 };
 use core::f64::consts::PI;
@@ -131,13 +131,27 @@ impl Table {
 /// The same angle between -pi and pi. rad.
 #[inline(always)]
 pub fn wrapped<L: Lanes>(alpha: L) -> L {
-    let is_outside = alpha.is_below(-PI) | alpha.is_above(PI);
-    if !is_outside.any() {
+    if !is_outside(alpha).any() {
         return alpha;
     }
+    L::in_lanes(&turned::<L::One>(&alpha.per_lane()))
+}
+
+/// Where an angle is not between -pi and pi.
+#[inline(always)]
+fn is_outside<L: Lanes>(alpha: L) -> L::Mask {
+    alpha.is_below(-PI) | alpha.is_above(PI)
+}
+
+/// The same angles between -pi and pi. rad.
+#[cold]
+#[inline(never)]
+fn turned<S: Scalar>(alpha: &PerLane<S>) -> PerLane<S> {
+    let alpha = S::In::<Portable>::in_lanes(alpha);
     let turns = (alpha.values() / (2.0 * PI)).each(libm::round);
     let turned = alpha.plus_real(-(turns * 2.0 * PI));
-    L::select(is_outside, turned.at_least(-PI).at_most(PI), alpha)
+    let turned = turned.at_least(-PI).at_most(PI);
+    Lanes::select(is_outside(alpha), turned, alpha).per_lane()
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@
 //! f64                   one number, outside of the blocks of elements
 //! Pair<Pair<f64>>       four, one after the other, on any processor: the definition
 //! Pair<Sse2>            four in two registers: every x86-64
+//! Pair<Neon>            four in two registers: every 64-bit ARM
 //! Avx2                  four in one register: chosen at run time
 //! ```
 //!
@@ -28,6 +29,8 @@ mod constant;
 mod dual;
 mod elementary;
 mod lanes;
+#[cfg(target_arch = "aarch64")]
+mod neon;
 mod one;
 mod pair;
 mod run;

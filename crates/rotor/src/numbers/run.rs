@@ -1,5 +1,7 @@
 //! The choice of the lanes in which a computation runs.
 
+#[cfg(target_arch = "aarch64")]
+use super::neon::Neon;
 use super::{Plain, pair::Pair};
 #[cfg(target_arch = "x86_64")]
 use super::{avx2::Avx2, sse2::Sse2};
@@ -8,7 +10,10 @@ use super::{avx2::Avx2, sse2::Sse2};
 #[cfg(target_arch = "x86_64")]
 pub type Portable = Pair<Sse2>;
 /// The lanes that every processor of this architecture has.
-#[cfg(not(target_arch = "x86_64"))]
+#[cfg(target_arch = "aarch64")]
+pub type Portable = Pair<Neon>;
+/// The lanes that every processor of this architecture has.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
 pub type Portable = Pair<Pair<f64>>;
 
 /// How many lanes a register holds. The bits of an answer do not depend on it.

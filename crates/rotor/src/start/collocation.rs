@@ -382,6 +382,19 @@ fn circulant(count: usize, diagonal: f64, entry: impl Fn(f64) -> f64) -> DMatrix
 mod tests {
     use super::*;
 
+    /// Of 25 azimuths, as of a rotor with five blades: nalgebra with its feature `std` takes other
+    /// code from a size of 6.
+    #[test]
+    fn products_of_matrices_have_no_fused_multiply_add() {
+        let (first, second) = (first_derivative(25), second_derivative(25));
+        for row in 0..25 {
+            for column in 0..25 {
+                let sum: f64 = (0..25).map(|i| first[(row, i)] * first[(i, column)]).sum();
+                assert_eq!(second[(row, column)], sum, "row {row}, column {column}");
+            }
+        }
+    }
+
     /// Of cos 2 psi + sin 3 psi, which both numbers of angles resolve.
     #[test]
     fn derivatives_of_harmonics_are_exact() {

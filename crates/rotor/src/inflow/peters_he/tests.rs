@@ -581,7 +581,10 @@ fn fastest_rate_bounds_the_modes() {
                     (up - rates(&moved)[i]) / (2.0 * small)
                 });
                 let modes = slopes.complex_eigenvalues();
-                let fastest = modes.iter().map(|mode| mode.norm()).fold(0.0, f64::max);
+                let fastest = modes
+                    .iter()
+                    .map(|mode| mode.norm_sqr().sqrt())
+                    .fold(0.0, f64::max);
                 let bound = if azimuths == 36 {
                     wake.fastest_rate(&states, solidity * blades, tip_speed, &stream, false)
                 } else {
