@@ -148,7 +148,8 @@ fn write_propeller<S: Scalar>(
     reals[real::PROPELLER_THRUST_COEFFICIENT] = per(thrust, force);
     reals[real::PROPELLER_POWER_COEFFICIENT] = per(power, force * velocity);
     reals[real::PROPELLER_ADVANCE_RATIO] = per(climb, velocity);
-    let propels = [thrust, power, climb].iter().all(|x| x.value() > 0.0);
+    // At standstill in the air, or without thrust, the efficiency has a corner.
+    let propels = thrust.is_above(0.0) && climb.is_above(0.0) && power.value() > 0.0;
     reals[real::PROPELLER_EFFICIENCY] = if propels && is_turning {
         thrust * climb / power
     } else {

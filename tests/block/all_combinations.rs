@@ -322,7 +322,7 @@ impl Sweep {
             flight.collective_degrees[1],
             flight.turning[0],
             flight.turning[1],
-            flight.blades,
+            self.blades(run),
             flight.height,
             flight.torque
         ));
@@ -337,6 +337,15 @@ impl Sweep {
         let closed = has("models.inflow", "annulusClosedForm");
         flaps && (has("models.blades", "disc") || closed)
             || closed && !has("models.groundEffect", "none")
+    }
+
+    /// The number of blades: a seesaw has two.
+    fn blades(&self, run: &Run) -> i32 {
+        if self.has(run, "flapping.hub", "teetering") {
+            2
+        } else {
+            run.flight().blades
+        }
     }
 
     fn has(&self, run: &Run, name: &str, value: &str) -> bool {
@@ -354,11 +363,8 @@ impl Sweep {
             set_string(&mut block, string::AIRFOIL__FILE, "naca0015.txt");
         }
         let flight = run.flight();
-        set_integer(
-            &mut block,
-            integer::GEOMETRY__NUMBER_OF_BLADES,
-            flight.blades,
-        );
+        let blades = self.blades(run);
+        set_integer(&mut block, integer::GEOMETRY__NUMBER_OF_BLADES, blades);
         let tip_speed = RPM * PI / 30.0 * get(&block, real::GEOMETRY__RADIUS);
         set(&mut block, real::VELOCITY_1, flight.advance * tip_speed);
         let radius = get(&block, real::GEOMETRY__RADIUS);

@@ -158,21 +158,21 @@ fn ratio<S: Scalar>(edgewise: S, climb: S) -> S {
         at: v_z,
         value: fade * (through - (own + helicopter(0.0, own))),
         // The boundary lies above A, where the baseline is momentum theory.
-        slope: -fade * (C(1.0) + helicopter_slope(edgewise, v_z)),
+        slope: -fade * (C(1.0) + helicopter_slope(edgewise, v_z, helicopter(edgewise, v_z))),
     };
-    let n = at(upper, THROUGH_N, N);
-    let x = at(lower, THROUGH_X, X);
+    let n = || at(upper, THROUGH_N, N);
+    let x = || at(lower, THROUGH_X, X);
     let begin = Knot {
         at: S::constant(D),
         value: S::zero(),
         slope: S::zero(),
     };
     let more = if climb.value() >= upper.value() {
-        hermite(&n, &begin, climb)
+        hermite(&n(), &begin, climb)
     } else if climb.value() >= lower.value() {
-        hermite(&x, &n, climb)
+        hermite(&x(), &n(), climb)
     } else {
-        through_origin(&x, end, S::zero(), climb)
+        through_origin(&x(), end, S::zero(), climb)
     };
     base + more
 }
@@ -194,43 +194,52 @@ fn baseline<S: Scalar>(edgewise: S, climb: S) -> S {
     } else if climb.value() < b.value() {
         windmill(edgewise, climb)
     } else {
+        let value = helicopter(edgewise, a);
         let knot = Knot {
             at: a,
-            value: helicopter(edgewise, a),
-            slope: helicopter_slope(edgewise, a),
+            value,
+            slope: helicopter_slope(edgewise, a, value),
         };
         through_origin(&knot, b, windmill(edgewise, b), climb)
     }
 }
 
-/// The largest root of v sqrt(V_x^2 + (V_z + v)^2) = 1, which continues hover. Newton's method
-/// finds it from above, where the left side is convex.
+/// The largest root of v sqrt(V_x^2 + (V_z + v)^2) = 1, which continues hover. The left side is
+/// convex above it.
 fn helicopter<S: Scalar>(edgewise: S, climb: S) -> S {
     if edgewise.value() == 0.0 {
         return C(-0.5) * climb + (C(1.0) + C(0.25) * climb * climb).sqrt();
     }
+    let begin = 1.0 + climb.value().abs();
+    newton(edgewise, climb, begin)
+        .unwrap_or_else(|| momentum(edgewise, climb, 0.0_f64.max(-climb.value()), begin))
+}
+
+/// A root of v sqrt(V_x^2 + (V_z + v)^2) = 1 by Newton's method, from a side on which it does not
+/// pass the root; none within the bound on its steps.
+fn newton<S: Scalar>(edgewise: S, climb: S, begin: f64) -> Option<S> {
     let (v_x, v_z) = (edgewise.value(), climb.value());
-    let mut v = 1.0 + v_z.abs();
+    let mut v = begin;
     for _ in 0..MAX_NEWTON_STEPS {
         let through = v_z + v;
         let flow = libm::sqrt(v_x * v_x + through * through);
         let step = (v * flow - 1.0) / (flow + v * through / flow);
         v -= step;
         if step.abs() <= 1e-14 * v.abs() {
-            return S::at_root(v, |v| momentum_surplus(edgewise, climb, v));
+            return Some(S::at_root(v, |v| momentum_surplus(edgewise, climb, v)));
         }
     }
-    momentum(edgewise, climb, 0.0_f64.max(-v_z), 1.0 + v_z.abs())
+    None
 }
 
-/// dv/dV_z of `helicopter`.
-fn helicopter_slope<S: Scalar>(edgewise: S, climb: S) -> S {
-    let v = helicopter(edgewise, climb);
+/// dv/dV_z of `helicopter`, whose value is v.
+fn helicopter_slope<S: Scalar>(edgewise: S, climb: S, v: S) -> S {
     let through = climb + v;
     -v * through / (edgewise * edgewise + through * through + v * through)
 }
 
-/// The root that continues fast descent. Where it does not exist, the root that continues hover.
+/// The root that continues fast descent: the left side is concave up to it. Where it does not exist,
+/// the root that continues hover.
 fn windmill<S: Scalar>(edgewise: S, climb: S) -> S {
     let middle = -0.5 * climb.value();
     if middle * libm::hypot(edgewise.value(), middle) < 1.0 {
@@ -239,7 +248,9 @@ fn windmill<S: Scalar>(edgewise: S, climb: S) -> S {
     if edgewise.value() == 0.0 {
         return C(-0.5) * climb - (C(0.25) * climb * climb - 1.0).sqrt();
     }
-    momentum(edgewise, climb, 0.0, middle)
+    newton(edgewise, climb, 0.0)
+        .filter(|v| (0.0..=middle).contains(&v.value()))
+        .unwrap_or_else(|| momentum(edgewise, climb, 0.0, middle))
 }
 
 /// v V' - 1.
