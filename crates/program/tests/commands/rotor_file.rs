@@ -383,6 +383,13 @@ fn an_fmu_of_one_rotor_has_a_name_and_all_its_files_or_is_not_made() {
     let outside = new(&folder, "outside.toml", &["--airfoil", "../outside.polar"]);
     fs::write(folder.join("../outside.polar"), "polar 1\n").unwrap();
     let good = new(&folder, "good.toml", &[]);
+    let seesaw = folder.join("seesaw.toml").to_str().unwrap().to_owned();
+    let text = fs::read_to_string(new(&folder, "two.toml", &["--hub", "teetering"])).unwrap();
+    fs::write(
+        &seesaw,
+        text.replace("numberOfBlades = 2", "numberOfBlades = 3"),
+    )
+    .unwrap();
     let out = folder.join("never.fmu");
     let refused = |rotor: &str, name: &str, part: &str| {
         let mut command = program(&["package", "--rotor", rotor, "--name", name, "--out"]);
@@ -396,6 +403,7 @@ fn an_fmu_of_one_rotor_has_a_name_and_all_its_files_or_is_not_made() {
         "\"nowhere.polar\" is neither beside the rotor file nor",
     );
     refused(&outside, "Good", "copy it into that folder");
+    refused(&seesaw, "Good", "with 3 blades: a seesaw has two");
     refused(&good, "1st", "is no name of a model");
     refused(&good, "my rotor", "is no name of a model");
     refused(&good, "HelicopterRotor", "is the name of the general FMU");
