@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct FromFile {
     replaced: Vec<Own>,
-    /// Whether the importer has set `rpm` and `collective`, be it to their defaults.
+    /// Whether the importer has set `rpm` and `collective`, even if to their defaults.
     has_rpm: bool,
     has_collective: bool,
 }

@@ -1,5 +1,5 @@
 //! An .fmu whose defaults are those of one rotor: `resources/packaged.txt` names its rotor file and
-//! its GUID. The program writes it, in the form of `settings`.
+//! its GUID. The program writes this file, in the form of the parameter `settings`.
 
 use super::{
     RotorBlock,
@@ -29,8 +29,8 @@ const MAX_BYTES: u64 = 1 << 16;
 pub struct Packaged {
     /// The GUID in modelDescription.xml.
     pub guid: String,
-    /// The GUID of the library, which is that of the general FMU: its variables are those of the
-    /// description.
+    /// The GUID that is built into the library, that of the general FMU. The description must have
+    /// the variables of this library.
     pub library: String,
     /// The default of `geometry.file`.
     pub rotor: String,
@@ -107,8 +107,8 @@ pub fn beside(path: &Path, name: &str) -> Option<PathBuf> {
     (!name.is_empty() && file.is_file()).then_some(file)
 }
 
-/// The geometry parameters as those of the rotor, which is that of the file: for the tools that show
-/// them.
+/// Sets the geometry parameters to the blade of the rotor file, as far as they can describe it. The
+/// FMU flies the file; tools show the parameters.
 fn show_geometry(values: &mut Values, geometry: &geometry::Geometry) {
     let (Some(first), Some(last)) = (geometry.stations.first(), geometry.stations.last()) else {
         return;
@@ -137,7 +137,7 @@ fn show_geometry(values: &mut Values, geometry: &geometry::Geometry) {
 }
 
 impl RotorBlock {
-    /// The values of an instance of which nothing is set.
+    /// The values of an instance in which nothing has been set.
     pub fn defaults(&self) -> &Values {
         &self.defaults
     }

@@ -44,8 +44,8 @@ impl Taken {
     }
 }
 
-/// Gives the variables of `values` that the importer has not set what the file says. `defaults`:
-/// the values of a rotor of which nothing is set. `path`: the file's, for errors.
+/// Copies what the file says into those variables of `values` that the importer has not set.
+/// `defaults`: the values when nothing is set. `path`: that of the file, for errors.
 pub fn apply(
     values: &mut Values,
     defaults: &Values,
@@ -182,10 +182,14 @@ impl Entry<'_> {
         if (variable.min..=variable.max).contains(&value) && value.is_finite() {
             return Ok(value);
         }
-        let unit = if is_angle { "deg" } else { variable.unit };
+        let unit = match variable.unit {
+            "rad" => " deg".to_owned(),
+            "1" => String::new(),
+            unit => format!(" {unit}"),
+        };
         let limit = |x: f64| shown(if is_angle { x.to_degrees().round() } else { x });
         Err(format!(
-            "{} is {} {unit}, which is out of range; give a value from {} to {} {unit}",
+            "{} is {}{unit}, which is out of range; give a value from {} to {}{unit}",
             variable.name,
             self.given.value,
             limit(variable.min),

@@ -1,6 +1,9 @@
 //! The presets: each is read and hovers, and those that were measured in hover are compared with
 //! the measurement. Knight & Hefner's rotors are compared in
-//! crates/program/tests/commands/importers.rs.
+//! crates/program/tests/commands/importers.rs, and the rotors of which less is known in
+//! presets/published.rs.
+
+mod published;
 
 use crate::support::block::{choose, default_block, project, resources, set_string};
 use helicopter_rotor::block::{

@@ -1,7 +1,10 @@
 //! Rotor files that give more than the shape: which value holds, and what the log says.
 
 use crate::support::{
-    block::{choice, computed, default_block, get, set, set_boolean, set_string},
+    block::{
+        choice, choose, computed, default_block, get, project, resources, set, set_boolean,
+        set_string,
+    },
     fmu::scratch,
 };
 use helicopter_rotor::block::{
@@ -108,6 +111,27 @@ fn a_file_gives_speed_collective_hub_models_and_drive() {
         assert!(log.contains(part), "{part:?} is not in {log}");
     }
     assert!(!log.contains("set otherwise"), "{log}");
+}
+
+/// docs/rotor-files.md shows a file and what the log says of it.
+#[test]
+fn the_page_on_rotor_files_shows_the_log() {
+    let page = fs::read_to_string(project().join("docs/rotor-files.md")).unwrap();
+    let part = |begin: &str, end: &str| {
+        let rest = page.split(begin).nth(1).unwrap();
+        rest.split(end).next().unwrap().to_owned()
+    };
+    let path = written("page", "my-rotor.toml", &part("```toml\n", "```"));
+    let section = resources().join("airfoils/naca0012.polar");
+    fs::copy(section, path.with_file_name("my-section.polar")).unwrap();
+    let mut block = default_block();
+    set_string(&mut block, string::GEOMETRY__FILE, path.to_str().unwrap());
+    choose(&mut block, integer::MODELS__INFLOW, "drees");
+    block.update().unwrap();
+    let log = events(&mut block).replace(path.to_str().unwrap(), "my-rotor.toml");
+    let shown = part("<!-- log -->\n", "<!-- log -->");
+    let shown = shown.trim();
+    assert!(log.lines().any(|line| line == shown), "{shown}\n{log}");
 }
 
 /// The same numbers whether they come from the file or from the importer.
@@ -258,6 +282,13 @@ fn wrong_values_and_unknown_keys_are_refused_with_line_and_remedy() {
             &[
                 "line 13: flapping.precone is 80 deg, which is out of range; give a value from -30 to 30 deg",
             ][..],
+        ),
+        (
+            "hingeOffset = 0.05",
+            "hingeOffset = 0.95",
+            &[
+                "line 12: flapping.hingeOffset is 0.95, which is out of range; give a value from 0 to 0.5",
+            ],
         ),
         (
             "\"drees\"",

@@ -21,7 +21,9 @@ OUTPUTS = ("thrustCoefficient", "torqueCoefficient")
 CONFIGURATIONS = ("single_lower", "single_upper")
 # Below it the thrust is less than a fifth of the largest, and the torque nearly that of the section drag.
 COMPARED_FROM = 0.0007
-READING = 0.000002  # of CQ, from the figure
+# How closely CQ and CT can be read off the printed plot, as the table of the points says.
+READING_CQ = 0.000002
+READING_CT = 0.00003
 PARAMETERS = {"geometry.file": "harrington-1.toml", **rotors.air(1.225, 288.15)}
 
 
@@ -38,7 +40,14 @@ def report(flown, figures):
     thrusts, torques = zip(*line)
     computed = np.interp([r["CT"] for r in rows], thrusts, torques)
     values = [r["CQ"] for r in rows]
-    scatter = errors.rms([100.0 * READING / value for value in values])
+    # An error of reading CT moves the computed CQ along the line.
+    slopes = np.interp([r["CT"] for r in rows], thrusts, np.gradient(torques, thrusts))
+    scatter = errors.rms(
+        [
+            100.0 * math.hypot(READING_CQ, slope * READING_CT) / value
+            for slope, value in zip(slopes, values)
+        ]
+    )
     found.errors.append(
         errors.percent(CASE, "CQ at the measured CT", "table", computed, values, scatter)
     )

@@ -1,39 +1,52 @@
 //! The seesaw of a teetering rotor: two blades that are one body on a hinge at the shaft.
 //!
-//! The body has one degree of freedom, the teeter angle b: blade 1 lies at beta_p + b and blade 2 at
-//! beta_p - b. The precone beta_p is built in. The axes of the blades meet the shaft a distance u,
-//! the undersling, below the hinge.
+//! The body has one degree of freedom, the teeter angle b: blade 1 lies at beta_p + b and blade 2
+//! at beta_p - b. The precone beta_p is built in. The axes of the blades meet the shaft a distance
+//! u, the undersling, below the hinge.
 //!
-//! With a_k the acceleration that `flapping` gives a single blade on a hinge at the shaft, the
-//! moment with which the blades hold each other is equal for both. It cancels in (I a_1 - I a_2)/2,
-//! which therefore moves the seesaw without undersling. The undersling changes the moments of
-//! inertia about the teeter axis and about the axis along the blades by D each, for one blade, and
-//! the one about the shaft not at all:
+//! A blade is a rod, so that the principal axes of the body are the line along the blades, the
+//! teeter axis and the line across both, which is the shaft at b = 0. With s the distance from the
+//! crossing of the blade axes, each blade adds to the moments of inertia about the hinge
 //!
 //! ```text
+//! along the blades:      I sin^2 beta_p + D
+//! about the teeter axis: I + D
+//! across both:           I cos^2 beta_p
 //! D = integral of (s sin beta_p - u)^2 - (s sin beta_p)^2 dm = m u^2 - 2 u S sin beta_p
 //! ```
 //!
-//! Euler's equations for the body (Goldstein 1980, "Classical Mechanics", eq. 5-39) with the angular
-//! velocity (w_r cos b + W sin b, w_t - b', W cos b - w_r sin b) then give, with the symbols of
-//! `flapping` at blade 1,
+//! The angular velocity along these axes is (w_r cos b + W sin b, w_t - b', W cos b - w_r sin b),
+//! with the symbols of `flapping` at blade 1. Euler's equation about the teeter axis (Goldstein
+//! 1980, "Classical Mechanics", eq. 5-39) is then
 //!
 //! ```text
 //! (I + D) b'' = (I a_1 - I a_2)/2 + D (w_t' + (w_r cos b + W sin b) (W cos b - w_r sin b))
-//!               + m u (g_z sin b + g_r cos b)
+//!               + m u (g_z sin b + g_r cos b),        w_t' = -Omega w_r
 //! ```
 //!
-//! For a hub at rest and u = 0 the teetering frequency is Omega sqrt(cos 2 beta_p): a little below
-//! the rotor speed, because of the height of the coned blades. The hub feels a moment about the
-//! teeter axis through the springs only.
+//! a_k is the acceleration that `flapping` gives blade k alone on a hinge at the shaft: half the
+//! difference of the two is Euler's equation for u = 0, because the moment with which the blades
+//! hold each other is equal for both and cancels. For a hub at rest and u = 0 the teetering
+//! frequency is Omega sqrt(cos 2 beta_p): a little below the rotor speed, because the coned blades
+//! reach above the hinge. The hub feels a moment about the teeter axis through the springs only.
+//!
+//! When the equation holds:
+//!
+//! * At any teeter angle and precone: no angle is small.
+//! * While the rotor speed varies: Omega' has no moment about the teeter axis, which is a principal
+//!   axis at right angles to the shaft.
+//! * On a hub that turns at any roll, pitch and yaw rate, if the rates change slowly: p' and q',
+//!   which belong in w_t', are left out, as in `flapping`. So is the acceleration of the hub.
+//! * On a shaft that leans in any direction: gravity acts on the centre of mass of the body.
+//!
+//! Two effects of the undersling are left out. The air forces along the blades have no lever u: u
+//! is some hundredths of the radius, and these forces are some hundredths of the lift. And the
+//! sections move through the air as with u = 0: the crossing of the blade axes, which swings below
+//! the hinge, would add u W sin b to U_T.
 //!
 //! In place of b the flap angles of both blades are states. In exact arithmetic beta_1 + beta_2 = 2
 //! beta_p, and rounding errors, or an importer that sets the states otherwise, are damped out:
-//! the sum c of the flap angles above the precone obeys c'' = -W^2 c - 2 W c', critically damped.
-//!
-//! Assumptions: those of `flapping`; and the air forces along the blade have no lever at the
-//! undersling: it is some hundredths of the radius, and these forces are some hundredths of the
-//! lift.
+//! the sum c of the flap angles above the precone obeys c'' = -W^2 c - 2 |W| c', critically damped.
 
 use super::{
     disc::{BladePosition, DiscFlow},
@@ -49,7 +62,7 @@ pub struct Seesaw {
 }
 
 impl Seesaw {
-    /// D, kg.m2.
+    /// D, what the undersling adds to the moment of inertia of one blade, kg.m2.
     fn inertia(&self, hinge: &Hinge) -> f64 {
         let height = 2.0 * hinge.mass.first_moment * libm::sin(hinge.precone);
         self.undersling * (self.undersling * hinge.mass.mass - height)
@@ -72,6 +85,7 @@ impl Seesaw {
         let angle = (position.flap.angle - other.flap.angle) * 0.5;
         let (sin, cos) = (angle.sin(), angle.cos());
         let (radial, _) = flow.hub_rates(position.azimuth);
+        // Angular velocity about the principal axes.
         let along = radial * cos + flow.rotation * sin;
         let across = flow.rotation * cos - radial * sin;
         let outwards =
@@ -93,6 +107,7 @@ impl Seesaw {
     ) -> [S; 2] {
         let teetering = self.acceleration(hinge, flow, blades);
         let [one, two] = blades.map(|(position, _)| position.flap);
+        // The critically damped way back of angles that one body cannot have.
         let sum = one.angle + two.angle - 2.0 * hinge.precone;
         let rate = one.rate + two.rate;
         let back = (flow.rotation * flow.rotation * sum + flow.rotation.abs() * rate * 2.0) * 0.5;

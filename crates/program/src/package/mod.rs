@@ -12,7 +12,7 @@ mod binary;
 mod cross;
 mod documentation;
 pub mod library;
-mod own_rotor;
+pub mod own_rotor;
 mod platform;
 mod selection;
 

@@ -1,7 +1,7 @@
-//! An .fmu of one rotor: its defaults are those of a rotor file, which lies in it, with the airfoils
-//! beside that file.
+//! An .fmu of one rotor: its defaults are those of a rotor file, which lies in it together with the
+//! airfoils beside that file.
 
-use crate::{Failure, failed, files};
+use crate::{Failure, failed, files, rotor_file};
 use clap::Args;
 use helicopter_rotor::block::{
     Reference, Values,
@@ -73,6 +73,9 @@ impl OwnRotor {
                 )));
             }
         }
+        // What the FMU refuses is no .fmu.
+        let mut block = rotor_file::block(&path)?;
+        block.start().map_err(|e| Failure(e.to_string()))?;
         Ok(Some(Own {
             name,
             title: definition.name,
@@ -84,8 +87,8 @@ impl OwnRotor {
 }
 
 impl Own {
-    /// The description of this .fmu from that of the general one, and the file of the resources that
-    /// says so to the library.
+    /// The description of this .fmu, made from that of the general one, and the text of
+    /// `packaged::FILE`, by which the library knows it.
     pub fn describe(&self, xml: &str, version: Version) -> Result<(String, String), Failure> {
         let unnamed = self.rewrite(xml, "")?;
         let guid = guid(&unnamed);
@@ -203,7 +206,7 @@ fn guid(xml: &str) -> String {
 }
 
 /// The airfoils that a rotor file names.
-fn airfoils(definition: &RotorDefinition) -> impl Iterator<Item = &str> {
+pub fn airfoils(definition: &RotorDefinition) -> impl Iterator<Item = &str> {
     let stations = definition.geometry.airfoils.iter().map(String::as_str);
     let standard = definition
         .given
@@ -216,13 +219,13 @@ fn airfoils(definition: &RotorDefinition) -> impl Iterator<Item = &str> {
 }
 
 /// Whether an airfoil of this name is in the FMU in any case.
-fn is_in(resources: &Path, airfoil: &str) -> bool {
+pub fn is_in(resources: &Path, airfoil: &str) -> bool {
     let is_relative = Path::new(airfoil).is_relative();
     let places = [resources.join("airfoils"), resources.to_path_buf()];
     is_relative && places.iter().any(|folder| folder.join(airfoil).is_file())
 }
 
-/// Refuses an airfoil that lies beside the rotor file's folder, or is named by an absolute path.
+/// Refuses an airfoil outside of the rotor file's folder, or one that is named by an absolute path.
 fn check_inside(airfoil: &str, path: &Path) -> Result<(), Failure> {
     let is_inside = Path::new(airfoil)
         .components()

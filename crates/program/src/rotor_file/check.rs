@@ -56,7 +56,7 @@ impl Check {
 }
 
 /// A block with the rotor of a file and the resources of the FMU.
-fn block(path: &Path) -> Result<RotorBlock, Failure> {
+pub fn block(path: &Path) -> Result<RotorBlock, Failure> {
     let mut block = RotorBlock::new(sources().join("modelDescription/resources"));
     let text = path.to_str().ok_or_else(|| {
         Failure(format!(

@@ -4,5 +4,5 @@ mod check;
 mod drawing;
 mod new;
 
-pub use check::Check;
+pub use check::{Check, block};
 pub use new::New;

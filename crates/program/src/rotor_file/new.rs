@@ -1,11 +1,19 @@
 //! `helicopter-rotor new FILE`: a commented rotor definition file from answers or options.
 
-use crate::{Failure, draft, failed, output};
+use super::block;
+use crate::{
+    Failure,
+    draft::{Draft, place_of_file},
+    failed, output,
+    package::{self, own_rotor},
+};
 use clap::Args;
-use rotor::geometry::Geometry;
+use helicopter_rotor::block::{packaged, variables::string};
+use rotor::geometry::RotorDefinition;
 use std::{
+    fs,
     io::{self, BufRead, IsTerminal},
-    path::PathBuf,
+    path::{Path, PathBuf},
 };
 
 /// Writes a commented rotor definition file, to be edited.
@@ -55,10 +63,18 @@ pub struct New {
     /// Lock number of the blades
     #[arg(long)]
     lock_number: Option<f64>,
+    /// Precone, deg
+    #[arg(long, allow_hyphen_values = true)]
+    precone: Option<f64>,
+    /// Distance of a teetering hinge above the point where the axes of the blades meet the shaft, m
+    #[arg(long, allow_hyphen_values = true)]
+    undersling: Option<f64>,
 }
 
-/// Lock number of an ordinary helicopter: 5 to 12 (Johnson 1980, "Helicopter Theory", p. 186).
+/// Lock number of blades with hinges: 8 to 10 (Johnson 1980, "Helicopter Theory", p. 186).
 const USUAL_LOCK_NUMBER: f64 = 8.0;
+/// Precone of a teetering rotor, deg: assumed.
+const USUAL_PRECONE: f64 = 2.5;
 
 impl New {
     pub fn run(self) -> Result<(), Failure> {
@@ -73,16 +89,28 @@ impl New {
             asks: io::stdin().is_terminal() && io::stdout().is_terminal(),
         };
         let text = self.text(&mut questions)?;
-        Geometry::from_text(&text, &file).map_err(|e| {
+        let draft = Draft::new(place_of_file(&file)?)?;
+        fs::write(draft.path(), text.as_bytes())
+            .map_err(failed(format!("cannot write {}", file.display())))?;
+        let missing = start(&draft.path(), &file).map_err(|Failure(problem)| {
+            // The user knows nothing of the draft.
+            let draft = draft.path().display().to_string();
+            let problem = problem.replace(&draft, &file.display().to_string());
             Failure(format!(
-                "these values describe no rotor ({e}); nothing was written"
+                "these values describe no rotor ({problem}); nothing was written"
             ))
         })?;
-        draft::replace_file(&file, text.as_bytes())?;
+        draft.publish()?;
         output::print(format_args!(
             "Wrote {0}; look at it with `helicopter-rotor check {0}`",
             file.display()
-        ))
+        ))?;
+        if let Some(airfoil) = missing {
+            output::note(format_args!(
+                "The airfoil {airfoil:?} is neither beside the rotor file nor among those of the FMU; put it beside the file"
+            ));
+        }
+        Ok(())
     }
 
     /// The content of the file.
@@ -117,6 +145,25 @@ impl New {
         } else {
             ask.value("Lock number", self.lock_number, USUAL_LOCK_NUMBER)?
         };
+        let is_teetering = hub == "teetering";
+        let precone = if is_teetering {
+            Some(ask.value("Precone, deg", self.precone, USUAL_PRECONE)?)
+        } else {
+            self.precone
+        };
+        let undersling = match (is_teetering, self.undersling) {
+            (true, given) => {
+                // The centre of mass of uniform blades, at half the radius, lies at the hinge.
+                let balanced = rounded(0.5 * radius * precone.unwrap_or(0.0).to_radians());
+                Some(ask.value("Undersling, m", given, balanced)?)
+            }
+            (false, None) => None,
+            (false, Some(_)) => {
+                return Err(Failure(format!(
+                    "--undersling belongs to a teetering hub, and the hub is {hub}; leave it out, or give --hub teetering"
+                )));
+            }
+        };
         let quoted = |text: &str| text.replace('\\', "\\\\").replace('"', "\\\"");
         let station = |r: f64, chord: f64| {
             format!(
@@ -136,7 +183,7 @@ impl New {
         text += "\n";
         text += &entry(
             format!("numberOfBlades = {blades}"),
-            "1 to 20; 8 if they flap",
+            "1 to 20; at most 8 if they flap",
         );
         text += &entry(
             format!("radius = {radius:?}"),
@@ -179,7 +226,13 @@ station = [
             format!("lockNumber = {lock_number:?}"),
             "rho a c R^4/I; or inertia, of one blade, kg.m2",
         );
-        text += &entry("# hingeOffset = 0.05".into(), "r/R");
+        text += &match undersling {
+            Some(undersling) => entry(
+                format!("undersling = {undersling:?}"),
+                "m, from where the blade axes meet up to the hinge",
+            ),
+            None => entry("# hingeOffset = 0.05".into(), "r/R"),
+        };
         text += &if hub == "hingeless" {
             entry(
                 "flapFrequency = 1.1".into(),
@@ -188,7 +241,10 @@ station = [
         } else {
             entry("# hingeSpring = 100.0".into(), "N.m/rad")
         };
-        text += &entry("# precone = 2.0".into(), "deg");
+        text += &match precone {
+            Some(precone) => entry(format!("precone = {precone:?}"), "deg"),
+            None => entry("# precone = 2.0".into(), "deg"),
+        };
         text += &entry("# delta3 = 15.0".into(), "deg, pitch-flap coupling");
         text += &entry("# lowestAngle = -6.0".into(), "droop stop, deg");
         text += &entry("# highestAngle = 20.0".into(), "flap stop, deg");
@@ -203,6 +259,31 @@ station = [
         text += &entry("# inertia = 1.0".into(), "of all that turns, kg.m2");
         Ok(text)
     }
+}
+
+/// Makes the rotor in a draft as the FMU does, and starts it. `file`: where the draft will lie. An
+/// airfoil that is not there yet, which is returned, is replaced by one of the FMU.
+fn start(draft: &Path, file: &Path) -> Result<Option<String>, Failure> {
+    let definition = RotorDefinition::read(draft).map_err(|e| Failure(e.to_string()))?;
+    let mut rotor = block(draft)?;
+    let mut set = |reference, text: &str| {
+        let set = rotor.set_strings(&[reference], &[text]);
+        set.map_err(|e| Failure(e.to_string()))
+    };
+    let mut missing = None;
+    for airfoil in own_rotor::airfoils(&definition) {
+        // The draft lies in a folder of its own.
+        if let Some(beside) = packaged::beside(file, airfoil) {
+            let path = std::path::absolute(&beside)
+                .map_err(failed(format!("cannot find {}", beside.display())))?;
+            set(string::AIRFOIL__FILE, &path.to_string_lossy())?;
+        } else if !own_rotor::is_in(&package::resources(), airfoil) {
+            set(string::SETTINGS, "airfoil.file = airfoils/naca0012.polar")?;
+            missing = Some(airfoil.to_owned());
+        }
+    }
+    rotor.start().map_err(|e| Failure(e.to_string()))?;
+    Ok(missing)
 }
 
 /// Three significant digits.

@@ -972,6 +972,59 @@ fn a_seesaw_teeters_at_the_frequency_of_its_moments_of_inertia() {
     }
 }
 
+/// Euler's equation about the teeter axis, A w_2' = (C - B) w_3 w_1 + M_2 (Goldstein 1980, eq.
+/// 5-39), for a hub that rolls, pitches and yaws, a shaft that leans and a teeter angle that is not
+/// small. The moments of inertia and that of the weight are sums over masses along the blades.
+#[test]
+fn a_seesaw_on_a_turning_hub_obeys_eulers_equation() {
+    let (precone, undersling, teeter, azimuth) = (0.1, 0.05, 0.2, 0.7_f64);
+    let rotor = seesaw(precone, undersling, INERTIA);
+    let gravity = Vector3::new(1.0, 2.0, -9.0);
+    let hub = Vector3::new(1.5, -2.5, 0.8);
+    let point = OperatingPoint {
+        angular_velocity: hub,
+        gravity,
+        ..airless(1e-9)
+    };
+    let mut state = State {
+        azimuth,
+        ..State::default()
+    };
+    for (k, angle) in [precone + teeter, precone - teeter].into_iter().enumerate() {
+        state.flaps[k] = Flap { angle, rate: 0.0 };
+    }
+    let mut workspace = Workspace::new(&rotor);
+    let rates = rotor.rates(&point, &state, &mut workspace).unwrap();
+    let found = [rates.flaps[0].rate, rates.flaps[1].rate];
+    close(found[0] + found[1], 0.0, 1e-9, "the blades are one body");
+
+    let out = Vector3::new(-azimuth.cos(), -azimuth.sin(), 0.0);
+    let up = Vector3::new(0.0, 0.0, 1.0);
+    let across = up.cross(&out);
+    let along = out * teeter.cos() + up * teeter.sin();
+    let normal = along.cross(&across);
+    // Rods of the same moments as the blades, cut into pieces.
+    let (mut a, mut b, mut c, mut weight) = (0.0, 0.0, 0.0, 0.0);
+    let count = 20_000;
+    let mass = MASS / f64::from(count);
+    for side in [1.0, -1.0] {
+        for i in 0..count {
+            let s = (f64::from(i) + 0.5) / f64::from(count);
+            let (x, z) = (side * s * precone.cos(), s * precone.sin() - undersling);
+            a += mass * (x * x + z * z);
+            b += mass * z * z;
+            c += mass * x * x;
+            weight += (along * x + normal * z).cross(&gravity).dot(&across) * mass;
+        }
+    }
+    let total = hub + up * SPEED;
+    let (one, three) = (total.dot(&along), total.dot(&normal));
+    // The teeter axis turns with the rotor against the hub: w_t' = (Omega x e_t) . w.
+    let axis_turns = (up * SPEED).cross(&across).dot(&hub);
+    let expected = axis_turns - ((c - b) * three * one + weight) / a;
+    close(found[0], expected, 1e-6 * expected.abs(), "b''");
+}
+
 /// On a rotor that does not turn it swings as a compound pendulum about the hinge: its weight times
 /// the depth of its centre of mass over its moment of inertia.
 #[test]
