@@ -107,8 +107,8 @@ pub fn beside(path: &Path, name: &str) -> Option<PathBuf> {
     (!name.is_empty() && file.is_file()).then_some(file)
 }
 
-/// The geometry parameters as those of the rotor, which is that of the file: for the tools that show
-/// them.
+/// The geometry parameters as those of the rotor, which is that of the file: for the tools that
+/// show them.
 fn show_geometry(values: &mut Values, geometry: &geometry::Geometry) {
     let (Some(first), Some(last)) = (geometry.stations.first(), geometry.stations.last()) else {
         return;

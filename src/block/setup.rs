@@ -94,8 +94,8 @@ pub enum SetupError {
 }
 
 /// The rotor that the parameters describe, and every file that was read, a rotor file first. With
-/// `defaults`, which are the values of a rotor of which nothing is set, `values` gets what the rotor
-/// file gives for variables that the importer has not set.
+/// `defaults`, which are the values of a rotor of which nothing is set, `values` gets what the
+/// rotor file gives for variables that the importer has not set.
 pub fn rotor(
     values: &mut Values,
     defaults: Option<&Values>,

@@ -1,8 +1,8 @@
 //! The seesaw of a teetering rotor: two blades that are one body on a hinge at the shaft.
 //!
-//! The body has one degree of freedom, the teeter angle b: blade 1 lies at beta_p + b and blade 2 at
-//! beta_p - b. The precone beta_p is built in. The axes of the blades meet the shaft a distance u,
-//! the undersling, below the hinge.
+//! The body has one degree of freedom, the teeter angle b: blade 1 lies at beta_p + b and blade 2
+//! at beta_p - b. The precone beta_p is built in. The axes of the blades meet the shaft a distance
+//! u, the undersling, below the hinge.
 //!
 //! With a_k the acceleration that `flapping` gives a single blade on a hinge at the shaft, the
 //! moment with which the blades hold each other is equal for both. It cancels in (I a_1 - I a_2)/2,
@@ -14,9 +14,9 @@
 //! D = integral of (s sin beta_p - u)^2 - (s sin beta_p)^2 dm = m u^2 - 2 u S sin beta_p
 //! ```
 //!
-//! Euler's equations for the body (Goldstein 1980, "Classical Mechanics", eq. 5-39) with the angular
-//! velocity (w_r cos b + W sin b, w_t - b', W cos b - w_r sin b) then give, with the symbols of
-//! `flapping` at blade 1,
+//! Euler's equations for the body (Goldstein 1980, "Classical Mechanics", eq. 5-39) with the
+//! angular velocity (w_r cos b + W sin b, w_t - b', W cos b - w_r sin b) then give, with the
+//! symbols of `flapping` at blade 1,
 //!
 //! ```text
 //! (I + D) b'' = (I a_1 - I a_2)/2 + D (w_t' + (w_r cos b + W sin b) (W cos b - w_r sin b))
