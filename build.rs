@@ -1,6 +1,6 @@
-//! Makes modelDescription.xml of FMI 2.0 and of FMI 3.0, the Rust constants of the variables and the
-//! documentation's tables from `modelDescription/*.toml`, so that they always agree, and a table of
-//! the resources.
+//! Makes modelDescription.xml of FMI 2.0 and of FMI 3.0, the Rust constants of the variables and
+//! the documentation's tables from `modelDescription/*.toml`, so that they always agree, and a
+//! table of the resources.
 
 #[path = "build/table.rs"]
 mod table;

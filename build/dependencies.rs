@@ -75,6 +75,15 @@ pub enum Phase {
     Running,
 }
 
+fn knowns_in<'a>(table: &'a Table, v: &'a Variable, phase: Phase) -> Vec<&'a Variable> {
+    match phase {
+        Phase::Initial => initial_knowns(table, v),
+        // A state is known then.
+        Phase::Running if v.nominal.is_some() => vec![v],
+        Phase::Running => [knowns(table, v), parameters_of(table, v)].concat(),
+    }
+}
+
 /// The dependencies of a variable of FMI 3.0: on inputs, states and parameters.
 pub fn of_grouped(
     table: &Table,
@@ -82,11 +91,8 @@ pub fn of_grouped(
     grouped: &Grouped,
     phase: Phase,
 ) -> Vec<Dependency> {
-    let knowns_of = |element: &&Variable| match phase {
-        Phase::Initial => initial_knowns(table, element),
-        Phase::Running => [knowns(table, element), parameters_of(table, element)].concat(),
-    };
-    let of_elements: Vec<Vec<&Variable>> = grouped.elements.iter().map(knowns_of).collect();
+    let elements = grouped.elements.iter();
+    let of_elements: Vec<Vec<&Variable>> = elements.map(|v| knowns_in(table, v, phase)).collect();
     let first = names(&of_elements[0]);
     let are_alike = of_elements.iter().all(|knowns| names(knowns) == first);
     let mut dependencies = Vec::new();

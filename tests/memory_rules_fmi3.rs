@@ -1,6 +1,6 @@
-//! The memory behind the C interface of FMI 3.0, as `memory_rules.rs` checks it for FMI 2.0: arrays,
-//! states, derivatives, and an importer's function that calls back in the middle of a step. Short
-//! enough for Miri: `cargo +nightly miri test --test memory_rules_fmi3`.
+//! The memory behind the C interface of FMI 3.0, as `memory_rules.rs` checks it for FMI 2.0:
+//! arrays, states, derivatives, and an importer's function that calls back in the middle of a step.
+//! Short enough for Miri: `cargo +nightly miri test --test memory_rules_fmi3`.
 
 use helicopter_rotor::{
     block::variables::{
@@ -36,6 +36,7 @@ const VELOCITY: u32 = real::VELOCITY_1.number();
 struct Environment {
     instance: Cell<fmi3Instance>,
     calls: Cell<u32>,
+    errors: Cell<u32>,
 }
 
 /// Sets and reads variables, and tries what is not allowed.
@@ -65,6 +66,36 @@ unsafe extern "C" fn update(
             *return_time = time;
         }
     }
+}
+
+/// Frees the instance when it hears of an error.
+unsafe extern "C" fn free_after_error(
+    environment: *mut c_void,
+    status: fmi3Status,
+    _category: fmi3String,
+    _message: fmi3String,
+) {
+    // SAFETY: the address of a living environment, whose instance is not used after an error.
+    unsafe {
+        let environment = &*environment.cast::<Environment>();
+        if status == ERROR {
+            environment.errors.set(environment.errors.get() + 1);
+            fmi3FreeInstance(environment.instance.get());
+        }
+    }
+}
+
+/// Does nothing.
+unsafe extern "C" fn ignore(
+    _environment: *mut c_void,
+    _time: f64,
+    _set: u8,
+    _get: u8,
+    _finished: u8,
+    _can_return: u8,
+    _requested: *mut u8,
+    _return_time: *mut f64,
+) {
 }
 
 /// A small rotor before its initialisation.
@@ -150,6 +181,56 @@ fn the_importer_calls_back_in_the_middle_of_a_step() {
     }
 }
 
+/// The instance has ended its step before the importer hears of the error, and is not touched
+/// afterwards.
+#[test]
+fn the_importer_frees_an_instance_whose_step_has_failed() {
+    let environment = Environment::default();
+    let resources = concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/resources/");
+    let [token, resources] =
+        [INSTANTIATION_TOKEN, resources].map(|text| CString::new(text).unwrap());
+    let (name, token, resources) = (c"rotor".as_ptr(), token.as_ptr(), resources.as_ptr());
+    let place = ptr::from_ref(&environment).cast_mut().cast();
+    let [elements, budget, inflow] = [
+        integer::NUMERICS__ELEMENTS,
+        integer::NUMERICS__BUDGET,
+        integer::MODELS__INFLOW,
+    ]
+    .map(|reference| in_block(1, reference.number()));
+    let file = in_block(3, string::AIRFOIL__FILE.number());
+    let (log, callback): (fmi3LogMessageCallback, fmi3IntermediateUpdateCallback) =
+        (free_after_error, ignore);
+    let (mut flags, mut time) = ([9_u8; 3], f64::NAN);
+    let [event, end, early] = flags.each_mut();
+    // SAFETY: the pointers live during the calls; the logger frees the instance.
+    unsafe {
+        let c = fmi3InstantiateCoSimulation(
+            name,
+            token,
+            resources,
+            0,
+            1,
+            0,
+            0,
+            &COLLECTIVE,
+            1,
+            place,
+            Some(log),
+            Some(callback),
+        );
+        environment.instance.set(c);
+        let references = [elements, budget];
+        let r = references.as_ptr();
+        assert_eq!(fmi3SetInt32(c, r, 2, [1, 1000].as_ptr(), 2), OK);
+        assert_eq!(fmi3SetInt64(c, &inflow, 1, &12, 1), OK);
+        assert_eq!(fmi3SetString(c, &file, 1, &c"circle.polar".as_ptr(), 1), OK);
+        assert_eq!(fmi3EnterInitializationMode(c, 0, 0.0, 0.0, 0, 0.0), OK);
+        assert_eq!(fmi3ExitInitializationMode(c), OK);
+        let status = fmi3DoStep(c, 0.0, 2.0, 1, event, end, early, &mut time);
+        assert_eq!((status, environment.errors.get()), (ERROR, 1));
+    }
+}
+
 #[test]
 fn arrays_dependencies_and_derivatives_go_through_memory_of_the_importer() {
     let c = instance(None, true);
@@ -197,6 +278,27 @@ fn arrays_dependencies_and_derivatives_go_through_memory_of_the_importer() {
         );
         assert_eq!(status, OK);
         assert!(knowns.iter().any(|known| known.assume_init() == VELOCITY));
+
+        // One place for all answers, of which the last stays.
+        let place = first.as_mut_ptr();
+        let status = fmi3GetVariableDependencies(
+            c,
+            THRUST,
+            place.cast(),
+            place.cast(),
+            place.cast(),
+            place.cast(),
+            n,
+        );
+        assert_eq!(status, OK);
+        assert_eq!(place.cast::<i32>().read(), FMI3_DEPENDENT);
+
+        // Values over their own value references.
+        let mut place = [0.0; 3];
+        let out = place.as_mut_ptr();
+        out.cast::<u32>().write(VELOCITY);
+        assert_eq!(fmi3GetFloat64(c, out.cast(), 1, out, 3), OK);
+        assert_eq!(place, [1.0, 2.0, 3.0]);
 
         let mut states = [const { MaybeUninit::<f64>::uninit() }; STATES.len()];
         let out = states.as_mut_ptr().cast();

@@ -92,9 +92,10 @@ fn time(xml: &mut Xml) -> io::Result<()> {
         .with_attributes([
             ("name", "time"),
             ("valueReference", TIME.to_string().as_str()),
-            ("description", "Time, s"),
+            ("description", "Time"),
             ("causality", "independent"),
             ("variability", "continuous"),
+            ("unit", "s"),
         ])
         .write_empty()?;
     Ok(())

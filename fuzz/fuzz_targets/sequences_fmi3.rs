@@ -1,6 +1,6 @@
-//! Sequences of calls of FMI 3.0, legal or not, with good and bad value references, counts and values:
-//! no crash, only sentences in the log, only finite numbers with fmi3OK, and after a reset the
-//! instance is as new. The importer's function makes the same calls in the middle of steps.
+//! Sequences of calls of FMI 3.0, legal or not, with good and bad value references, counts and
+//! values: no crash, only sentences in the log, only finite numbers with fmi3OK, and after a reset
+//! the instance is as new. The importer's function makes the same calls in the middle of steps.
 
 #![no_main]
 

@@ -92,7 +92,8 @@ pub fn read_airfoils(
     Ok(airfoils)
 }
 
-/// Where an airfoil file that does not exist was looked for besides `path`, as a part of a sentence.
+/// Where an airfoil file that does not exist was looked for besides `path`, as a part of a
+/// sentence.
 fn place(folder: Option<&Path>, path: &Path) -> String {
     match folder {
         Some(folder) if !path.is_file() => {

@@ -7,7 +7,7 @@ use rotor::{Rotor, State};
 const FAR: f64 = 0.1;
 
 /// Which of the two sentences, on blades beyond a stop and blades turned over, have been logged.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct BeyondStopsNotice {
     beyond: bool,
     turned_over: bool,

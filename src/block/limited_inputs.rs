@@ -9,7 +9,7 @@ use super::{
 };
 
 /// The inputs of which a warning has been given: one for each input.
-#[derive(Debug)]
+#[derive(Debug, Clone, Copy)]
 pub struct LimitedInputs {
     warned: [bool; INPUTS],
 }

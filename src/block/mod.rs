@@ -141,7 +141,7 @@ pub struct RotorBlock {
     fresh: Fresh,
     /// The flow state as last computed. The variable changes at events only.
     flow_state: i32,
-    /// Whether the variable keeps its value in steps, too: until the importer handles the event.
+    /// Whether flowState keeps its value during steps, until the importer enters Event Mode.
     holds_flow_state: bool,
     /// Sentences for the log since the last call of `take_notes`.
     notes: Vec<Note>,

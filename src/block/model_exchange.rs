@@ -28,10 +28,7 @@ impl RotorBlock {
     /// Begins an event: discrete variables get their new values, and tunable parameters may be set.
     pub fn begin_event(&mut self) {
         self.stage = Stage::Running;
-        self.holds_flow_state = false;
-        if self.fresh == Fresh::All {
-            self.values.integers[integer::FLOW_STATE] = self.flow_state;
-        }
+        self.hold_flow_state(false);
     }
 
     /// The continuous states in the order of `STATES`. While the block is being configured, they

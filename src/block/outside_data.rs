@@ -3,7 +3,7 @@
 use rotor::{BladeLoads, Rotor, airfoil::Axis};
 
 /// Which of the two sentences, on Reynolds and on Mach numbers, have been logged.
-#[derive(Debug, Default)]
+#[derive(Debug, Clone, Copy, Default)]
 pub struct OutsideDataNotice {
     reynolds: bool,
     mach: bool,

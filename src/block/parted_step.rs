@@ -1,9 +1,12 @@
 //! Steps in parts: to the time of an event, and with inputs that the importer sets within a step.
 
 use super::{
-    BlockError, Fresh, RotorBlock,
+    BlockError, Fresh, RotorBlock, Stage,
+    beyond_stops::BeyondStopsNotice,
     flight_condition::FlightCondition,
     integrate::{Integration, Memory},
+    limited_inputs::LimitedInputs,
+    outside_data::OutsideDataNotice,
     ramp::Slopes,
     references::Reals,
     variables::{INPUTS, integer, real},
@@ -29,11 +32,18 @@ pub struct Moment {
     slopes: Slopes,
     past_slopes: Slopes,
     fresh: Fresh,
+    /// Number of sentences for the log, and which of those that are said once have been said.
+    notes: usize,
+    limited_inputs: LimitedInputs,
+    outside_data: OutsideDataNotice,
+    beyond_stops: BeyondStopsNotice,
 }
 
 impl RotorBlock {
-    pub fn moment(&self) -> Moment {
-        Moment {
+    /// The present moment, to return to. The rotor is made before, since that is not taken back.
+    pub fn moment(&mut self) -> Result<Moment, BlockError> {
+        self.rotor()?;
+        Ok(Moment {
             reals: self.values.reals,
             shown_flow_state: self.values.integers[integer::FLOW_STATE],
             flow_state: self.flow_state,
@@ -41,7 +51,11 @@ impl RotorBlock {
             slopes: self.ramp.slopes,
             past_slopes: self.ramp.past,
             fresh: self.fresh,
-        }
+            notes: self.notes.len(),
+            limited_inputs: self.limited_inputs,
+            outside_data: self.outside_data,
+            beyond_stops: self.beyond_stops,
+        })
     }
 
     pub fn return_to(&mut self, moment: &Moment) {
@@ -52,11 +66,19 @@ impl RotorBlock {
         self.ramp.slopes = moment.slopes;
         self.ramp.past = moment.past_slopes;
         self.fresh = moment.fresh;
+        self.notes.truncate(moment.notes);
+        self.limited_inputs = moment.limited_inputs;
+        self.outside_data = moment.outside_data;
+        self.beyond_stops = moment.beyond_stops;
     }
 
-    /// The discrete output keeps its value until the next event.
-    pub fn hold_flow_state(&mut self) {
-        self.holds_flow_state = true;
+    /// Whether the discrete output keeps its value in steps. If it does not, it gets the present
+    /// one.
+    pub fn hold_flow_state(&mut self, holds: bool) {
+        self.holds_flow_state = holds;
+        if !holds && self.stage == Stage::Running && self.fresh == Fresh::All {
+            self.values.integers[integer::FLOW_STATE] = self.flow_state;
+        }
     }
 
     /// Whether the discrete output waits for an event to get its new value.
@@ -64,29 +86,44 @@ impl RotorBlock {
         self.values.integers[integer::FLOW_STATE] != self.flow_state
     }
 
-    /// Advances as `step`. If an event comes up, the step ends just after it: within a thousandth
-    /// of `duration`. Returns the duration of the step. An event that is still pending when the
-    /// step begins does not end it again.
-    pub fn step_to_event(&mut self, duration: f64) -> Result<f64, BlockError> {
+    /// Advances as `step`. If the flow state at the end is another, the step ends just after a
+    /// change of it: within a thousandth of `duration`, or later where the work of a search would
+    /// exceed the budget of a step, of which `spent` is used up. Returns the duration of the step.
+    /// If an event is already pending at the beginning, the step goes to its end.
+    pub fn step_to_event(&mut self, duration: f64, spent: u64) -> Result<f64, BlockError> {
         let is_known = self.is_event_pending();
-        let begin = self.moment();
+        let begin = self.moment()?;
         self.step(duration)?;
         if is_known || !self.is_event_pending() {
             return Ok(duration);
         }
-        let (mut before, mut after) = (0.0, duration);
+        let mut work = self.workspace.work.done();
+        // A shorter step takes no more work than the whole one. The last step comes on top.
+        let reserved = spent.saturating_add(2 * work);
+        let most = self.budget().left().saturating_sub(reserved);
+        let (mut before, mut after, mut reached) = (0.0, duration, duration);
         for _ in 0..HALVINGS {
-            let middle = 0.5 * (before + after);
+            if work > most {
+                break;
+            }
+            reached = 0.5 * (before + after);
             self.return_to(&begin);
-            self.step(middle)?;
+            self.step(reached)?;
+            work += self.workspace.work.done();
             if self.is_event_pending() {
-                after = middle;
+                after = reached;
             } else {
-                before = middle;
+                before = reached;
             }
         }
-        self.return_to(&begin);
-        self.step(after)?;
+        if reached != after {
+            self.return_to(&begin);
+            self.step(after)?;
+        } else {
+            work -= self.workspace.work.done();
+        }
+        // The work of the last step and of those before it.
+        self.workspace.work.count(work);
         Ok(after)
     }
 
@@ -95,12 +132,14 @@ impl RotorBlock {
     }
 
     /// Advances as `step`, or as `step_to_event`, while the inputs move linearly from `before` to
-    /// their present values. Returns the duration of the step.
+    /// their present values. Adds its work to that of the parts before it, and fails if the sum
+    /// exceeds the budget of a step. Returns the duration of the step.
     pub fn step_from(
         &mut self,
         before: &Inputs,
         duration: f64,
         stops_at_event: bool,
+        work: &mut u64,
     ) -> Result<f64, BlockError> {
         let after = self.inputs();
         let inputs = self.values.reals.iter_mut().zip(&mut self.ramp.slopes);
@@ -111,11 +150,16 @@ impl RotorBlock {
             }
         }
         let advanced = if stops_at_event {
-            self.step_to_event(duration)?
+            self.step_to_event(duration, *work)?
         } else {
             self.step(duration)?;
             duration
         };
+        let budget = self.budget().left();
+        *work = work.saturating_add(self.workspace.work.done());
+        if *work > budget {
+            return Err(BlockError::TooMuchWork(budget));
+        }
         if advanced == duration {
             // As they were set, without the rounding errors of the slopes.
             for (value, after) in self.values.reals.iter_mut().zip(after) {
@@ -126,7 +170,8 @@ impl RotorBlock {
     }
 
     /// Number of parts in which inputs that are curved in time can be followed during the next
-    /// `duration` s: as long as the steps of the integration, or one part if nothing is integrated.
+    /// `duration` s: as long as the steps of the integration at their beginning, or one part if
+    /// nothing is integrated.
     pub fn parts_of_step(&mut self, duration: f64) -> Result<f64, BlockError> {
         let point = FlightCondition::new(&self.values)?.point;
         let azimuth_step = self.values.reals[real::NUMERICS__AZIMUTH_STEP];
@@ -144,15 +189,79 @@ impl RotorBlock {
         .cell(&point, speed);
         Ok((duration / cell).ceil().clamp(1.0, MAX_PARTS))
     }
+}
 
-    /// Adds the work of the last step to that of the parts before it. An error if the sum exceeds
-    /// the budget of a step.
-    pub fn add_work(&self, before: u64) -> Result<u64, BlockError> {
-        let budget = self.budget().left();
-        let sum = before.saturating_add(self.workspace.work.done());
-        if sum > budget {
-            return Err(BlockError::TooMuchWork(budget));
+#[cfg(test)]
+mod tests {
+    use super::super::variables::InflowModel;
+    use super::*;
+
+    const RESOURCES: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/modelDescription/resources");
+
+    type Failure = Box<dyn std::error::Error>;
+
+    /// A rotor whose inflow has states, and that will descend into the vortex ring in a step of
+    /// 0.2 s.
+    fn descending(budget: Option<u64>) -> Result<RotorBlock, Failure> {
+        let mut block = RotorBlock::new(RESOURCES.into());
+        let inflow = InflowModel::PittPetersDynamic as i32;
+        block.set_integers(&[integer::MODELS__INFLOW], &[inflow])?;
+        if let Some(budget) = budget {
+            block.set_integers(&[integer::NUMERICS__BUDGET], &[budget.try_into()?])?;
         }
-        Ok(sum)
+        block.start()?;
+        block.hold_flow_state(true);
+        block.take_notes();
+        descend(&mut block)?;
+        Ok(block)
+    }
+
+    fn descend(block: &mut RotorBlock) -> Result<(), Failure> {
+        Ok(block.set_input_slopes(&[real::VELOCITY_3], &[-40.0])?)
+    }
+
+    const DURATION: f64 = 0.2;
+
+    #[test]
+    fn the_search_for_an_event_takes_no_more_than_the_budget_of_a_step() -> Result<(), Failure> {
+        let mut block = descending(None)?;
+        block.step(DURATION)?;
+        let whole = block.workspace.work.done();
+        let mut ends = Vec::new();
+        for tenths in [11, 15, 29, 35, 50, 80, 200] {
+            let budget = whole * tenths / 10;
+            let mut block = descending(Some(budget))?;
+            let advanced = block.step_to_event(DURATION, 0)?;
+            let work = block.workspace.work.done();
+            assert!(work <= budget, "{work} of {budget}");
+            assert!(block.is_event_pending());
+            ends.push(advanced);
+            // What was spent before counts.
+            let mut block = descending(Some(budget))?;
+            block.step_to_event(DURATION, budget / 2)?;
+            let work = block.workspace.work.done();
+            assert!(work <= (budget / 2).max(whole), "{work} of {budget}");
+        }
+        assert_eq!(ends[..2], [DURATION; 2], "no search");
+        assert!(ends.is_sorted_by(|a, b| a >= b), "{ends:?}");
+        assert!(ends[6] < 0.95 * DURATION, "{ends:?}");
+        Ok(())
+    }
+
+    /// The whole step, which the event cuts short, would leave the range of an input.
+    #[test]
+    fn nothing_is_said_of_moments_after_the_event() -> Result<(), Failure> {
+        let mut block = descending(None)?;
+        let height = real::HEIGHT_ABOVE_GROUND;
+        let (begin, slope) = (block.values().reals[height], -6000.0);
+        block.set_input_slopes(&[height], &[slope])?;
+        let advanced = block.step_to_event(DURATION, 0)?;
+        assert!(begin + slope * advanced > 0.0 && begin + slope * DURATION < 0.0);
+        assert_eq!(block.take_notes(), []);
+        // But when that moment comes.
+        block.set_input_slopes(&[height], &[slope])?;
+        block.step(DURATION)?;
+        assert_eq!(block.take_notes().len(), 1);
+        Ok(())
     }
 }

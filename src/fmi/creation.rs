@@ -4,11 +4,11 @@ use super::{
     arguments::text,
     communication_time::Experiment,
     handle,
-    instance::{Importer, Instance, Message},
+    instance::{Instance, Message, Options, Outcome, call, refuse},
     legality::{Function, INSTANTIATED, Interface, Version},
     logger::{Callback, Category, Logger, Wanted, printable},
     resource_location::resources,
-    types::{Component, Environment, Text},
+    types::{Component, Environment, Status, Text},
 };
 use crate::{
     block::{
@@ -39,9 +39,8 @@ pub struct Request<'a> {
     pub callback: Option<Callback>,
     pub environment: Environment,
     pub wanted: Wanted,
-    /// The interface that it asks for, or what is wrong with its request.
-    pub interface: Result<Interface, String>,
-    pub importer: Importer,
+    /// Tells the interface that it asks for, or what is wrong with its request.
+    pub choose: &'a dyn Fn() -> Result<(Interface, Options), Message>,
 }
 
 /// Makes an instance; null if that is refused, which is logged whatever messages are wanted.
@@ -68,9 +67,15 @@ pub unsafe fn create(request: Request) -> Component {
         // SAFETY: passed on from the caller.
         let token = unsafe { text(request.token, request.token_name) };
         let version = request.function.version;
-        let interface = match check_token(token, version, &resources).and(request.interface) {
-            Ok(interface) => interface,
-            Err(sentence) => return Err((logger, sentence)),
+        let checked = check_token(token, version, &resources).and_then(|()| (request.choose)());
+        let (interface, options) = match checked {
+            Ok(chosen) => chosen,
+            Err(Message::Error(text) | Message::Warning(text)) => return Err((logger, text)),
+        };
+        // What only the functions of FMI 3.0 use.
+        let (references, integers) = match version {
+            Version::Two => (0, 0),
+            Version::Three => (REALS.len(), INTEGERS.len()),
         };
         let instance = Instance {
             version,
@@ -80,9 +85,9 @@ pub unsafe fn create(request: Request) -> Component {
             logger,
             strings: PerVariable::new(Default::default()),
             experiment: Experiment::default(),
-            importer: request.importer,
-            references: Vec::with_capacity(REALS.len()),
-            integers: Vec::with_capacity(INTEGERS.len()),
+            options,
+            references: Vec::with_capacity(references),
+            integers: Vec::with_capacity(integers),
         };
         Ok(instance)
     };
@@ -117,14 +122,8 @@ fn cut(name: &str) -> &str {
 }
 
 /// An error if the importer asks for another FMU.
-fn check_token(
-    given: Result<&str, Message>,
-    version: Version,
-    resources: &Path,
-) -> Result<(), String> {
-    let given = given.map_err(|message| match message {
-        Message::Error(text) | Message::Warning(text) => text,
-    })?;
+fn check_token(given: Result<&str, Message>, version: Version, resources: &Path) -> Outcome {
+    let given = given?;
     // An .fmu that was made for one rotor has a GUID of its own, since its start values differ.
     let packaged = Packaged::read(resources);
     let of_this_library = packaged
@@ -133,7 +132,7 @@ fn check_token(
     let ours = of_this_library.map_or(version.token(), |packaged| &packaged.guid);
     if given.trim() != ours {
         let given: String = given.chars().take(80).collect();
-        return Err(format!(
+        return refuse(format!(
             "the {} {given:?} is not the binary's, {ours}; modelDescription.xml and binary must come from the same .fmu",
             version.token_name()
         ));
@@ -141,11 +140,15 @@ fn check_token(
     Ok(())
 }
 
-/// Frees an instance.
+/// Frees an instance, unless it is one of the other version or makes a step, to which it returns.
 ///
 /// # Safety
-/// `component` is null or an instance that is not used afterwards.
-pub unsafe fn free(component: Component) {
+/// As `call`; an instance that is freed is not used afterwards.
+pub unsafe fn free(component: Component, function: &'static Function) {
+    // SAFETY: passed on from the caller.
+    if unsafe { call(component, function, |_| Ok(())) } != Status::Ok {
+        return;
+    }
     // A panic cannot be reported: the logger belongs to the instance.
     let _ = catch_unwind(|| {
         // SAFETY: passed on from the caller.

@@ -7,7 +7,7 @@ use super::{
     communication_time::Experiment,
     handle::{self, Marked},
     instance::{Instance, Message, Outcome, call, no_memory, refuse},
-    legality::{Function, Interface, STEP_MODE, States, Version},
+    legality::{EVENT_MODE, Function, Interface, STEP_MODE, States, TERMINATED, Version},
     types::{Component, StatePointer, Status},
 };
 use crate::{block::Snapshot, host::memory::Watch};
@@ -51,12 +51,19 @@ impl FmuState {
                     .into(),
             );
         }
+        let has_event_mode = instance.options.has_event_mode;
+        if self.interface == Interface::CoSimulation && self.state == EVENT_MODE && !has_event_mode
+        {
+            return refuse(
+                "the state was saved in Event Mode, which the instance does not use; set it on an instance that was made with eventModeUsed = true"
+                    .into(),
+            );
+        }
         instance.block.restore(&self.block)?;
         instance.state = self.state;
         instance.experiment = self.experiment;
-        if self.state == STEP_MODE && instance.importer.has_event_mode {
-            instance.block.hold_flow_state();
-        }
+        let is_stepping = self.state & (STEP_MODE | TERMINATED) != 0;
+        (instance.block).hold_flow_state(has_event_mode && is_stepping);
         Ok(())
     }
 }
@@ -67,20 +74,55 @@ impl Marked for FmuState {
     const MARK: u64 = 0x7374_6174_6520_4f4b;
 }
 
+/// What a version calls its states and the functions for them.
+struct Words {
+    state: &'static str,
+    get: &'static str,
+    deserialize: &'static str,
+    size: &'static str,
+}
+
+impl Version {
+    fn words(self) -> &'static Words {
+        match self {
+            Self::Two => &Words {
+                state: "FMUstate",
+                get: "fmi2GetFMUstate",
+                deserialize: "fmi2DeSerializeFMUstate",
+                size: "fmi2SerializedFMUstateSize",
+            },
+            Self::Three => &Words {
+                state: "FMUState",
+                get: "fmi3GetFMUState",
+                deserialize: "fmi3DeserializeFMUState",
+                size: "fmi3SerializedFMUStateSize",
+            },
+        }
+    }
+}
+
 /// The state behind a pointer.
 ///
 /// # Safety
 /// `pointer` is null, or comes from this file and was not freed.
-unsafe fn living<'a>(pointer: StatePointer) -> Result<&'a mut FmuState, Message> {
+unsafe fn living<'a>(pointer: StatePointer, words: &Words) -> Result<&'a mut FmuState, Message> {
+    let Words {
+        state: name,
+        get,
+        deserialize,
+        ..
+    } = words;
     if pointer.is_null() {
-        return Err(Message::Error(
-            "FMUstate is a null pointer; pass a state that this FMU gave".into(),
-        ));
+        return Err(Message::Error(format!(
+            "{name} is a null pointer; pass a state from {get} or {deserialize}"
+        )));
     }
     // SAFETY: passed on from the caller.
     let state = unsafe { handle::living(pointer) };
     let mut state = state.ok_or_else(|| {
-        Message::Error("FMUstate is not a state of this FMU, or it was freed".into())
+        Message::Error(format!(
+            "{name} is not a state of this FMU, or it was freed"
+        ))
     })?;
     // SAFETY: a living state, and by the contract above nothing else refers to it.
     Ok(unsafe { state.as_mut() })
@@ -90,9 +132,12 @@ unsafe fn living<'a>(pointer: StatePointer) -> Result<&'a mut FmuState, Message>
 ///
 /// # Safety
 /// `address` is null or points to a pointer.
-unsafe fn variable<'a>(address: *mut StatePointer) -> Result<&'a mut StatePointer, Message> {
+unsafe fn variable<'a>(
+    address: *mut StatePointer,
+    words: &Words,
+) -> Result<&'a mut StatePointer, Message> {
     // SAFETY: passed on from the caller; by the contract above it is initialised.
-    Ok(unsafe { room_for_one(address, "FMUstate")?.assume_init_mut() })
+    Ok(unsafe { room_for_one(address, words.state)?.assume_init_mut() })
 }
 
 /// Makes a state and stores it where the importer keeps it: over the state that is there, else in
@@ -102,12 +147,13 @@ unsafe fn variable<'a>(address: *mut StatePointer) -> Result<&'a mut StatePointe
 /// As `variable`; `*address` as in `living`.
 unsafe fn store(
     address: *mut StatePointer,
+    words: &Words,
     make: impl FnOnce() -> Result<FmuState, Message>,
 ) -> Outcome {
     let watch = Watch::begin();
     let state = make()?;
     // SAFETY: passed on from the caller.
-    let pointer = unsafe { variable(address)? };
+    let pointer = unsafe { variable(address, words)? };
     if pointer.is_null() {
         let handle = handle::create(state);
         if watch.is_short() {
@@ -122,7 +168,7 @@ unsafe fn store(
         return Err(no_memory(()));
     }
     // SAFETY: passed on from the caller.
-    *unsafe { living(*pointer)? } = state;
+    *unsafe { living(*pointer, words)? } = state;
     Ok(())
 }
 
@@ -139,7 +185,11 @@ pub unsafe fn get(
 ) -> Status {
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
-        unsafe { store(state, || Ok(FmuState::of(instance))) }
+        unsafe {
+            store(state, function.version.words(), || {
+                Ok(FmuState::of(instance))
+            })
+        }
     };
     // SAFETY: passed on from the caller.
     unsafe { call(component, function, body) }
@@ -157,7 +207,7 @@ pub unsafe fn set(
 ) -> Status {
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
-        unsafe { living(state)? }.apply(instance)
+        unsafe { living(state, function.version.words())? }.apply(instance)
     };
     // SAFETY: passed on from the caller.
     unsafe { call(component, function, body) }
@@ -172,18 +222,19 @@ pub unsafe fn free(
     function: &'static Function,
     state: *mut StatePointer,
 ) -> Status {
+    let words = function.version.words();
     let body = |_: &mut Instance| {
         if state.is_null() {
             return Ok(());
         }
         // SAFETY: passed on from the caller.
-        let pointer = unsafe { variable(state)? };
+        let pointer = unsafe { variable(state, words)? };
         if pointer.is_null() {
             return Ok(());
         }
         // SAFETY: passed on from the caller; `living` refuses anything else.
         unsafe {
-            living(*pointer)?;
+            living(*pointer, words)?;
             handle::free::<FmuState>(*pointer);
         }
         *pointer = ptr::null_mut();
@@ -205,7 +256,10 @@ pub unsafe fn serialized_size(
 ) -> Status {
     let body = |_: &mut Instance| {
         // SAFETY: passed on from the caller.
-        let (size, state) = unsafe { (room_for_one(size, "size")?, living(state)?) };
+        let (size, state) = unsafe {
+            let words = function.version.words();
+            (room_for_one(size, "size")?, living(state, words)?)
+        };
         size.write(state.to_bytes()?.len());
         Ok(())
     };
@@ -224,13 +278,15 @@ pub unsafe fn serialize(
     serialized: *mut u8,
     size: usize,
 ) -> Status {
+    let words = function.version.words();
     let body = |_: &mut Instance| {
         // SAFETY: passed on from the caller.
-        let bytes = unsafe { living(state)? }.to_bytes()?;
+        let bytes = unsafe { living(state, words)? }.to_bytes()?;
         if size < bytes.len() {
             return refuse(format!(
-                "serializedState has room for {size} bytes, but the state takes {}; ask for the size first",
-                bytes.len()
+                "serializedState has room for {size} bytes, but the state takes {}; ask {}",
+                bytes.len(),
+                words.size
             ));
         }
         // SAFETY: passed on from the caller.
@@ -253,11 +309,16 @@ pub unsafe fn deserialize(
     size: usize,
     state: *mut StatePointer,
 ) -> Status {
-    let body = |instance: &mut Instance| {
+    let body = |_: &mut Instance| {
         // SAFETY: passed on from the caller.
         let bytes = unsafe { elements(serialized, size, "serializedState")? };
+        let version = function.version;
         // SAFETY: passed on from the caller.
-        unsafe { store(state, || Ok(FmuState::from_bytes(bytes, instance.version)?)) }
+        unsafe {
+            store(state, version.words(), || {
+                Ok(FmuState::from_bytes(bytes, version)?)
+            })
+        }
     };
     // SAFETY: passed on from the caller.
     unsafe { call(component, function, body) }

@@ -8,13 +8,12 @@ use super::{
         STEP_MODE, States, Version,
     },
     logger::{Category, Logger},
-    types::{Component, Status, ValueReference},
+    types::{Component, IntermediateUpdate, Status, ValueReference},
 };
 use crate::block::{
     BlockError, Note, PerVariable, RotorBlock,
     variables::{STRINGS, StringRef},
 };
-use crate::fmi3::types::fmi3IntermediateUpdateCallback;
 use crate::host::{float_environment::in_default_environment, memory::NO_MEMORY};
 use std::{
     any::Any,
@@ -31,19 +30,19 @@ pub struct Instance {
     /// The strings that were returned; valid until the next call.
     pub strings: PerVariable<StringRef, CString, { STRINGS.len() }>,
     pub experiment: Experiment,
-    pub importer: Importer,
+    pub options: Options,
     /// Memory for the elements of variables of FMI 3.0, so that getting and setting allocates none.
     pub references: Vec<ValueReference>,
-    /// And for values of another width than the block's.
+    /// Memory for Booleans and enumeration items, which the block takes as i32.
     pub integers: Vec<i32>,
 }
 
-/// What an importer of FMI 3.0 can do in Co-Simulation.
+/// The options of Co-Simulation in FMI 3.0, which an importer chooses for an instance.
 #[derive(Default)]
-pub struct Importer {
+pub struct Options {
     pub has_event_mode: bool,
     pub allows_early_return: bool,
-    pub intermediate_update: Option<fmi3IntermediateUpdateCallback>,
+    pub intermediate_update: Option<IntermediateUpdate>,
     /// The variables that it accesses during intermediate updates.
     pub required: Vec<ValueReference>,
 }
@@ -97,7 +96,7 @@ impl Instance {
     pub fn initialized(&self) -> States {
         match (self.interface, self.version) {
             (Interface::CoSimulation, Version::Two) => STEP_COMPLETE,
-            (Interface::CoSimulation, Version::Three) if !self.importer.has_event_mode => STEP_MODE,
+            (Interface::CoSimulation, Version::Three) if !self.options.has_event_mode => STEP_MODE,
             _ => EVENT_MODE,
         }
     }

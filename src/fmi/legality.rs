@@ -73,13 +73,11 @@ pub const EVENT_MODE: States = 1 << 8;
 // Of Model Exchange:
 pub const CONTINUOUS_TIME_MODE: States = 1 << 9;
 // Of FMI 3.0:
-pub const CONFIGURATION_MODE: States = 1 << 10;
-pub const RECONFIGURATION_MODE: States = 1 << 11;
-pub const STEP_MODE: States = 1 << 12;
+pub const STEP_MODE: States = 1 << 10;
 /// Intermediate Update Mode while inputs are asked for.
-pub const INTERMEDIATE_SET: States = 1 << 13;
+pub const INTERMEDIATE_SET: States = 1 << 11;
 /// Intermediate Update Mode while outputs may be read.
-pub const INTERMEDIATE_GET: States = 1 << 14;
+pub const INTERMEDIATE_GET: States = 1 << 12;
 
 /// States that one interface alone has.
 const OF_CO_SIMULATION: States = STEP_COMPLETE
@@ -178,7 +176,6 @@ fn names(states: States) -> String {
     let all = [
         (START_AND_END, "without an instance"),
         (INSTANTIATED, "instantiated"),
-        (CONFIGURATION_MODE, "Configuration Mode"),
         (INITIALIZATION_MODE, "Initialization Mode"),
         (EVENT_MODE, "Event Mode"),
         (CONTINUOUS_TIME_MODE, "Continuous-Time Mode"),
@@ -191,7 +188,6 @@ fn names(states: States) -> String {
             INTERMEDIATE_GET,
             "Intermediate Update Mode where outputs may be read",
         ),
-        (RECONFIGURATION_MODE, "Reconfiguration Mode"),
         (STEP_COMPLETE, "stepComplete"),
         (STEP_IN_PROGRESS, "stepInProgress"),
         (STEP_FAILED, "stepFailed"),

@@ -78,7 +78,7 @@ impl Logger {
             },
             // SAFETY: as above.
             Some(Callback::Three(log_message)) => unsafe {
-                // Elsewhere it would stand for a variable.
+                // FMI 3.0 reads #5# as the variable with value reference 5, so # is doubled.
                 let message = printable(&message.replace('#', "##"));
                 log_message(
                     self.environment,

@@ -1,10 +1,10 @@
 //! States and derivatives for an importer that integrates.
 //!
-//! No equation contains time itself, and there are no event indicators: a change of the one discrete
-//! output, `flowState`, asks for its event after a completed step.
+//! No equation contains time itself, and there are no event indicators: a change of the one
+//! discrete output, `flowState`, asks for its event after a completed step.
 
 use super::{
-    arguments::{elements, fill, room},
+    arguments::{elements, fill, room, room_for_one},
     instance::{Instance, Outcome, call, refuse},
     legality::{CONTINUOUS_TIME_MODE, EVENT_MODE, Function},
     types::{Component, Status},
@@ -41,6 +41,35 @@ pub fn check_count(given: usize, count: usize, what: &str) -> Outcome {
     refuse(format!(
         "the vector has room for {given} {what}, but this FMU has {count}; pass that number"
     ))
+}
+
+/// Ends a step of the importer's solver: tells whether an event is due. The simulation never asks
+/// for its end. `T` is a Boolean.
+///
+/// # Safety
+/// As `call`; the two results may be written.
+pub unsafe fn completed_step<T: From<bool>>(
+    component: Component,
+    function: &'static Function,
+    enter_event_mode: *mut T,
+    terminate_simulation: *mut T,
+) -> Status {
+    let body = |instance: &mut Instance| {
+        // SAFETY: passed on from the caller. One reference ends before the next is made, because an
+        // importer may pass the same place twice; the event then counts.
+        unsafe {
+            let event = || room_for_one(enter_event_mode, "enterEventMode");
+            let end = || room_for_one(terminate_simulation, "terminateSimulation");
+            event()?;
+            end()?;
+            let has_event = instance.block.has_event()?;
+            end()?.write(false.into());
+            event()?.write(has_event.into());
+        }
+        Ok(())
+    };
+    // SAFETY: passed on from the caller.
+    unsafe { call(component, function, body) }
 }
 
 /// Sets the continuous states.

@@ -12,8 +12,8 @@
 use super::{
     fmu_state::FmuState,
     legality::{
-        CONFIGURATION_MODE, CONTINUOUS_TIME_MODE, EVENT_MODE, INITIALIZATION_MODE, INSTANTIATED,
-        Interface, RECONFIGURATION_MODE, STEP_COMPLETE, STEP_MODE, TERMINATED, Version,
+        CONTINUOUS_TIME_MODE, EVENT_MODE, INITIALIZATION_MODE, INSTANTIATED, Interface,
+        STEP_COMPLETE, STEP_MODE, TERMINATED, Version,
     },
 };
 use crate::block::{Contradiction, Stage, variables::GUID};
@@ -117,24 +117,15 @@ impl FmuState {
         self.block.check()?;
         // The stages of the block in the states of the call sequence.
         let stage = self.block.stage();
-        let stepping = match self.version {
-            Version::Two => STEP_COMPLETE,
-            Version::Three => STEP_MODE | EVENT_MODE | RECONFIGURATION_MODE,
-        };
         let is_consistent = match (self.interface, self.state) {
             (_, INSTANTIATED | INITIALIZATION_MODE) => stage == Stage::Configuring,
-            (_, CONFIGURATION_MODE) => {
-                self.version == Version::Three && stage == Stage::Configuring
-            }
             (Interface::CoSimulation, TERMINATED) | (Interface::ModelExchange, EVENT_MODE) => {
                 stage == Stage::Running
             }
-            (Interface::CoSimulation, state)
-                if state.is_power_of_two() && state & stepping != 0 =>
-            {
-                stage == Stage::Running
+            (Interface::CoSimulation, STEP_COMPLETE) => {
+                self.version == Version::Two && stage == Stage::Running
             }
-            (Interface::ModelExchange, RECONFIGURATION_MODE) => {
+            (Interface::CoSimulation, STEP_MODE | EVENT_MODE) => {
                 self.version == Version::Three && stage == Stage::Running
             }
             (Interface::ModelExchange, CONTINUOUS_TIME_MODE) => stage == Stage::Integrating,

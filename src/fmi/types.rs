@@ -11,6 +11,18 @@ pub type StatePointer = *mut c_void;
 pub type ValueReference = c_uint;
 pub type Text = *const c_char;
 
+/// The importer's function during a step: `fmi3IntermediateUpdateCallback`.
+pub type IntermediateUpdate = unsafe extern "C" fn(
+    environment: Environment,
+    time: f64,
+    inputs_are_asked_for: u8,
+    outputs_may_be_read: u8,
+    is_part_finished: u8,
+    can_return_early: u8,
+    wants_early_return: *mut u8,
+    time_of_return: *mut f64,
+);
+
 /// The status that a function returns, with the numbers of both versions. Three are never returned:
 /// `Discard`, because no step may be repeated with a smaller size; `Fatal`, because no error
 /// affects other instances; `fmi2Pending`, because no step runs asynchronously.

@@ -4,7 +4,7 @@
 
 use super::types::*;
 use crate::fmi::{
-    arguments::{elements, fill, room, room_for_one},
+    arguments::{elements, room, room_for_one},
     instance::{Instance, Message, Outcome, call, refuse},
     legality::Function,
 };
@@ -95,13 +95,7 @@ pub unsafe extern "C" fn fmi2GetRealOutputDerivatives(
                 room(value, nvr, "value")?,
             )
         };
-        if let Some(other) = order.iter().find(|order| **order != 1) {
-            return refuse(format!(
-                "order = {other}, but this FMU has only first derivatives of its outputs; pass 1"
-            ));
-        }
-        fill(value, instance.block.output_rates(vr)?);
-        Ok(())
+        instance.output_rates(vr, order, value)
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2GetRealOutputDerivatives, body) }

@@ -5,7 +5,7 @@
 use super::{legality::interface, logger::wanted, types::*};
 use crate::fmi::{
     creation::{self, Request},
-    instance::Importer,
+    instance::{Message, Options},
     legality::Function,
     logger::Callback,
 };
@@ -34,12 +34,12 @@ pub unsafe extern "C" fn fmi2Instantiate(
         callback: callbacks.and_then(|f| f.logger).map(Callback::Two),
         environment: callbacks.map_or(ptr::null_mut(), |f| f.componentEnvironment),
         wanted: wanted(loggingOn != FMI2_FALSE, None),
-        interface: interface(fmuType).ok_or_else(|| {
-            format!(
+        choose: &|| match interface(fmuType) {
+            Some(interface) => Ok((interface, Options::default())),
+            None => Err(Message::Error(format!(
                 "fmuType = {fmuType} is unknown; pass fmi2ModelExchange (0) or fmi2CoSimulation (1)"
-            )
-        }),
-        importer: Importer::default(),
+            ))),
+        },
     };
     // SAFETY: passed on from the caller.
     unsafe { creation::create(request) }
@@ -49,7 +49,6 @@ pub unsafe extern "C" fn fmi2Instantiate(
 /// As in the standard: `c` is null or comes from fmi2Instantiate and is not used afterwards.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi2FreeInstance(c: fmi2Component) {
-    // Freeing is legal in every state that this FMU enters.
     // SAFETY: passed on from the caller.
-    unsafe { creation::free(c) }
+    unsafe { creation::free(c, Function::fmi2FreeInstance) }
 }

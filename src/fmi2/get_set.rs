@@ -22,11 +22,7 @@ pub unsafe extern "C" fn fmi2GetReal(
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
         let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, room(value, nvr, "value")?) };
-        instance.refresh_reals(vr)?;
-        for (reference, slot) in vr.iter().zip(value) {
-            slot.write(instance.block.values().real(*reference)?);
-        }
-        Ok(())
+        instance.get_reals(vr, value)
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2GetReal, body) }
@@ -44,11 +40,7 @@ pub unsafe extern "C" fn fmi2GetInteger(
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
         let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, room(value, nvr, "value")?) };
-        instance.refresh_integers(vr)?;
-        for (reference, slot) in vr.iter().zip(value) {
-            slot.write(instance.block.values().integer(*reference)?);
-        }
-        Ok(())
+        instance.get_integers(vr, value)
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2GetInteger, body) }
@@ -66,10 +58,7 @@ pub unsafe extern "C" fn fmi2GetBoolean(
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
         let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, room(value, nvr, "value")?) };
-        for (reference, slot) in vr.iter().zip(value) {
-            slot.write(instance.block.values().boolean(*reference)?.into());
-        }
-        Ok(())
+        instance.get_booleans(vr, value)
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2GetBoolean, body) }
@@ -87,10 +76,7 @@ pub unsafe extern "C" fn fmi2GetString(
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
         let (vr, value) = unsafe { (elements(vr, nvr, "vr")?, room(value, nvr, "value")?) };
-        for (reference, slot) in vr.iter().zip(value) {
-            slot.write(instance.kept_string(*reference)?);
-        }
-        Ok(())
+        instance.get_strings(vr, value)
     };
     // SAFETY: passed on from the caller.
     unsafe { call(c, Function::fmi2GetString, body) }

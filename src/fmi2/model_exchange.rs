@@ -7,7 +7,7 @@ use crate::fmi::{
     arguments::room_for_one,
     instance::{Instance, call},
     legality::Function,
-    model_exchange::{Vector, check_count, set_states, state_vector},
+    model_exchange::{Vector, check_count, completed_step, set_states, state_vector},
 };
 
 // ------------------------------------------------------------------ modes
@@ -64,20 +64,9 @@ pub unsafe extern "C" fn fmi2CompletedIntegratorStep(
     enterEventMode: *mut fmi2Boolean,
     terminateSimulation: *mut fmi2Boolean,
 ) -> fmi2Status {
-    let body = |instance: &mut Instance| {
-        // SAFETY: passed on from the caller. One reference ends before the next is made, because an
-        // importer may pass the same place twice; the event then counts.
-        unsafe {
-            room_for_one(enterEventMode, "enterEventMode")?;
-            room_for_one(terminateSimulation, "terminateSimulation")?;
-            let has_event = instance.block.has_event()?;
-            room_for_one(terminateSimulation, "terminateSimulation")?.write(FMI2_FALSE);
-            room_for_one(enterEventMode, "enterEventMode")?.write(has_event.into());
-        }
-        Ok(())
-    };
+    let function = Function::fmi2CompletedIntegratorStep;
     // SAFETY: passed on from the caller.
-    unsafe { call(c, Function::fmi2CompletedIntegratorStep, body) }
+    unsafe { completed_step(c, function, enterEventMode, terminateSimulation) }
 }
 
 // ------------------------------------------------------------------ time and states

@@ -3,13 +3,13 @@
 #![allow(non_snake_case)]
 
 use super::{
-    intermediate_update::{Interval, step_with_updates},
+    intermediate_update::{Interval, Progress, step_with_updates},
     types::*,
-    variables::{Access, Kind},
+    variables::{Kind, Time},
 };
 use crate::fmi::{
-    arguments::{elements, fill, room, room_for_one},
-    instance::{Instance, Message, Outcome, call, refuse},
+    arguments::{elements, room, room_for_one},
+    instance::{Instance, Message, Outcome, call},
     legality::{Function, STEP_MODE},
     types::ValueReference,
 };
@@ -19,7 +19,7 @@ use crate::fmi::{
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3EnterStepMode(instance: fmi3Instance) -> fmi3Status {
     let body = |instance: &mut Instance| {
-        instance.block.hold_flow_state();
+        instance.block.hold_flow_state(true);
         instance.state = STEP_MODE;
         Ok(())
     };
@@ -59,7 +59,7 @@ impl Results {
     /// As `check`, which has passed.
     pub unsafe fn write(self, instance: &Instance, end: f64) {
         let time = instance.experiment.time;
-        let needs_event = instance.importer.has_event_mode && instance.block.is_event_pending();
+        let needs_event = instance.options.has_event_mode && instance.block.is_event_pending();
         // SAFETY: passed on from the caller; `check` has passed.
         unsafe {
             self.event_handling_needed.write(needs_event.into());
@@ -74,8 +74,8 @@ impl Instance {
     /// Advances the block, and no further than to an event if the importer allows that. Returns
     /// the duration by which it has advanced.
     pub fn advance(&mut self, duration: f64) -> Result<f64, Message> {
-        if self.importer.has_event_mode && self.importer.allows_early_return {
-            return Ok(self.block.step_to_event(duration)?);
+        if self.options.has_event_mode && self.options.allows_early_return {
+            return Ok(self.block.step_to_event(duration, 0)?);
         }
         self.block.step(duration)?;
         Ok(duration)
@@ -102,20 +102,18 @@ pub unsafe extern "C" fn fmi3DoStep(
         last_successful_time: lastSuccessfulTime,
     };
     let (point, step) = (currentCommunicationPoint, communicationStepSize);
-    let mut with_updates = None;
+    let mut progress = None;
     let body = |instance: &mut Instance| {
         // SAFETY: passed on from the caller.
         unsafe { results.check()? };
         let end = instance.experiment.end_of_step(point, step)?;
-        if let Some(update) = instance.importer.intermediate_update {
-            with_updates = Some((
-                update,
-                Interval {
-                    begin: point,
-                    end,
-                    size: step,
-                },
-            ));
+        if let Some(update) = instance.options.intermediate_update {
+            let interval = Interval {
+                begin: point,
+                end,
+                size: step,
+            };
+            progress = Some(Progress::begin(instance, update, interval)?);
             return Ok(());
         }
         let advanced = instance.advance(step)?;
@@ -131,8 +129,8 @@ pub unsafe extern "C" fn fmi3DoStep(
     // SAFETY: passed on from the caller.
     unsafe {
         let status = call(instance, Function::fmi3DoStep, body);
-        match with_updates {
-            Some((update, interval)) => step_with_updates(instance, update, &interval, results),
+        match progress {
+            Some(progress) => step_with_updates(instance, progress, results),
             None => status,
         }
     }
@@ -151,25 +149,17 @@ pub unsafe extern "C" fn fmi3GetOutputDerivatives(
     nValues: usize,
 ) -> fmi3Status {
     let body = |instance: &mut Instance| {
-        // SAFETY: passed on from the caller.
-        let (references, orders, room) = unsafe {
-            (
-                elements(valueReferences, nValueReferences, "valueReferences")?,
-                elements(orders, nValueReferences, "orders")?,
-                room(values, nValues, "values")?,
-            )
-        };
-        if let Some(other) = orders.iter().find(|order| **order != 1) {
-            return refuse(format!(
-                "order = {other}, but this FMU has only first derivatives of its outputs; pass 1"
-            ));
-        }
         let mut rates = |instance: &mut Instance, vr: &[ValueReference]| {
-            fill(room, instance.block.output_rates(vr)?);
-            Ok(())
+            // SAFETY: passed on from the caller.
+            unsafe {
+                let orders = elements(orders, nValueReferences, "orders")?;
+                instance.output_rates(vr, orders, room(values, nValues, "values")?)
+            }
         };
-        let count = (nValues, "nValues");
-        instance.with_elements(Kind::Float64, Access::Set, references, count, &mut rates)
+        let (what, count) = ((Kind::Float64, Time::Refused), (nValues, "nValues"));
+        let references = ((valueReferences, nValueReferences), "valueReferences");
+        // SAFETY: passed on from the caller.
+        unsafe { instance.with_elements(what, references, count, &mut rates) }
     };
     // SAFETY: passed on from the caller.
     unsafe { call(instance, Function::fmi3GetOutputDerivatives, body) }

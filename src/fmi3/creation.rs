@@ -6,20 +6,22 @@ use super::{types::*, variables::has_intermediate_values};
 use crate::fmi::{
     arguments::elements,
     creation::{self, Request},
-    instance::{Importer, Message, call, no_memory},
+    instance::{Message, Options, no_memory},
     legality::{Function, Interface},
     logger::Callback,
 };
 
-/// What the three functions have alike.
-fn request(
+type Chosen = Result<(Interface, Options), Message>;
+
+/// The arguments that all three functions have.
+fn request<'a>(
     function: &'static Function,
     (instance_name, token, resources): (fmi3String, fmi3String, fmi3String),
     logging_on: fmi3Boolean,
     environment: fmi3InstanceEnvironment,
     log: Option<fmi3LogMessageCallback>,
-    interface: Result<Interface, String>,
-) -> Request<'static> {
+    choose: &'a dyn Fn() -> Chosen,
+) -> Request<'a> {
     Request {
         function,
         instance_name,
@@ -29,8 +31,7 @@ fn request(
         callback: log.map(Callback::Three),
         environment,
         wanted: [logging_on != FMI3_FALSE; _],
-        interface,
-        importer: Importer::default(),
+        choose,
     }
 }
 
@@ -52,7 +53,7 @@ pub unsafe extern "C" fn fmi3InstantiateModelExchange(
         loggingOn,
         instanceEnvironment,
         logMessage,
-        Ok(Interface::ModelExchange),
+        &|| Ok((Interface::ModelExchange, Options::default())),
     );
     // SAFETY: passed on from the caller.
     unsafe { creation::create(request) }
@@ -76,16 +77,20 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
     logMessage: Option<fmi3LogMessageCallback>,
     intermediateUpdate: Option<fmi3IntermediateUpdateCallback>,
 ) -> fmi3Instance {
-    let (references, count) = (
-        requiredIntermediateVariables,
-        nRequiredIntermediateVariables,
-    );
-    // SAFETY: passed on from the caller.
-    let required = unsafe { elements(references, count, "requiredIntermediateVariables") };
-    let required = required.and_then(check_required);
-    let interface = match &required {
-        Ok(_) => Ok(Interface::CoSimulation),
-        Err(Message::Error(text) | Message::Warning(text)) => Err(text.clone()),
+    let choose = || {
+        let (references, count) = (
+            requiredIntermediateVariables,
+            nRequiredIntermediateVariables,
+        );
+        // SAFETY: passed on from the caller.
+        let required = unsafe { elements(references, count, "requiredIntermediateVariables")? };
+        let options = Options {
+            has_event_mode: eventModeUsed != FMI3_FALSE,
+            allows_early_return: earlyReturnAllowed != FMI3_FALSE,
+            intermediate_update: intermediateUpdate,
+            required: check_required(required)?,
+        };
+        Ok((Interface::CoSimulation, options))
     };
     let request = request(
         Function::fmi3InstantiateCoSimulation,
@@ -93,21 +98,10 @@ pub unsafe extern "C" fn fmi3InstantiateCoSimulation(
         loggingOn,
         instanceEnvironment,
         logMessage,
-        interface,
+        &choose,
     );
-    let importer = Importer {
-        has_event_mode: eventModeUsed != FMI3_FALSE,
-        allows_early_return: earlyReturnAllowed != FMI3_FALSE,
-        intermediate_update: intermediateUpdate,
-        required: required.unwrap_or_default(),
-    };
     // SAFETY: passed on from the caller.
-    unsafe {
-        creation::create(Request {
-            importer,
-            ..request
-        })
-    }
+    unsafe { creation::create(request) }
 }
 
 /// The variables that the importer wants to access during intermediate updates; an error if one of
@@ -145,15 +139,19 @@ pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
     _lockPreemption: Option<fmi3LockPreemptionCallback>,
     _unlockPreemption: Option<fmi3LockPreemptionCallback>,
 ) -> fmi3Instance {
-    let refusal =
-        "this FMU does not offer Scheduled Execution; use Co-Simulation or Model Exchange";
+    let choose = || {
+        Err(Message::Error(
+            "this FMU does not offer Scheduled Execution; use Co-Simulation or Model Exchange"
+                .into(),
+        ))
+    };
     let request = request(
         Function::fmi3InstantiateScheduledExecution,
         (instanceName, instantiationToken, resourcePath),
         loggingOn,
         instanceEnvironment,
         logMessage,
-        Err(refusal.to_owned()),
+        &choose,
     );
     // SAFETY: passed on from the caller.
     unsafe { creation::create(request) }
@@ -163,11 +161,6 @@ pub unsafe extern "C" fn fmi3InstantiateScheduledExecution(
 /// As in the standard: `instance` is null or was made here, and is not used afterwards.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn fmi3FreeInstance(instance: fmi3Instance) {
-    // Refused during an intermediate update, to which the step returns.
     // SAFETY: passed on from the caller.
-    unsafe {
-        if call(instance, Function::fmi3FreeInstance, |_| Ok(())) == fmi3Status::Ok {
-            creation::free(instance);
-        }
-    }
+    unsafe { creation::free(instance, Function::fmi3FreeInstance) }
 }

@@ -9,7 +9,7 @@ use crate::{
     fmi::{
         arguments::{fill, room, room_for_one},
         instance::{Instance, Message, call, refuse},
-        legality::{CONFIGURATION_MODE, Function, INITIALIZATION_MODE, INSTANTIATED},
+        legality::{Function, INITIALIZATION_MODE, INSTANTIATED},
     },
 };
 
@@ -23,7 +23,7 @@ impl Instance {
             variable(reference)?;
         }
         let row = DEPENDENCIES.iter().find(|row| row.of == reference);
-        let is_initial = self.state & (INSTANTIATED | CONFIGURATION_MODE | INITIALIZATION_MODE);
+        let is_initial = self.state & (INSTANTIATED | INITIALIZATION_MODE);
         Ok(match row {
             None => &[],
             Some(row) if is_initial != 0 => row.initial,
@@ -71,30 +71,28 @@ pub unsafe extern "C" fn fmi3GetVariableDependencies(
                 "nDependencies = {nDependencies}, but the variable has {count}; pass what fmi3GetNumberOfVariableDependencies answers"
             ));
         }
-        // SAFETY: passed on from the caller.
-        let (elements, knowns, elements_of_knowns, kinds) = unsafe {
-            (
-                room(
-                    elementIndicesOfDependent,
-                    count,
-                    "elementIndicesOfDependent",
-                )?,
-                room(independents, count, "independents")?,
-                room(
-                    elementIndicesOfIndependents,
-                    count,
-                    "elementIndicesOfIndependents",
-                )?,
-                room(dependencyKinds, count, "dependencyKinds")?,
-            )
-        };
-        fill(elements, rows.iter().map(|row| row.element.into()));
-        fill(knowns, rows.iter().map(|row| row.on));
-        fill(
-            elements_of_knowns,
-            rows.iter().map(|row| row.element_on.into()),
-        );
-        fill(kinds, rows.iter().map(|_| FMI3_DEPENDENT));
+        // SAFETY: passed on from the caller. Each answer is written before the next room is made,
+        // because an importer may pass the same place twice.
+        unsafe {
+            let of = || {
+                let name = "elementIndicesOfDependent";
+                room(elementIndicesOfDependent, count, name)
+            };
+            let knowns = || room(independents, count, "independents");
+            let of_knowns = || {
+                let name = "elementIndicesOfIndependents";
+                room(elementIndicesOfIndependents, count, name)
+            };
+            let kinds = || room(dependencyKinds, count, "dependencyKinds");
+            of()?;
+            knowns()?;
+            of_knowns()?;
+            kinds()?;
+            fill(of()?, rows.iter().map(|row| row.element.into()));
+            fill(knowns()?, rows.iter().map(|row| row.on));
+            fill(of_knowns()?, rows.iter().map(|row| row.element_on.into()));
+            fill(kinds()?, rows.iter().map(|_| FMI3_DEPENDENT));
+        }
         Ok(())
     };
     // SAFETY: passed on from the caller.

@@ -5,7 +5,7 @@
 
 use super::{
     types::*,
-    variables::{Access, Kind},
+    variables::{Kind, References, Time},
 };
 use crate::fmi::{
     arguments::{elements, fill, room},
@@ -18,8 +18,8 @@ use crate::fmi::{
 /// elements.
 #[derive(Clone, Copy)]
 struct Arguments {
-    unknowns: (*const fmi3ValueReference, usize),
-    knowns: (*const fmi3ValueReference, usize),
+    unknowns: References,
+    knowns: References,
     seed: (*const fmi3Float64, usize),
     sensitivity: (*mut fmi3Float64, usize),
 }
@@ -40,38 +40,39 @@ unsafe fn derivative(
             sensitivity,
         } = arguments;
         let room = || {
-            // SAFETY: passed on from the caller. The seed has been read by then, so that it may be
-            // the same memory.
+            // SAFETY: passed on from the caller. The value references and the seed have been read
+            // by then, so that they may be the same memory.
             unsafe { room(sensitivity.0, sensitivity.1, "sensitivity") }
         };
         room()?;
-        // SAFETY: passed on from the caller.
-        let (unknowns, knowns, seed) = unsafe {
-            (
-                elements(unknowns.0, unknowns.1, "unknowns")?,
-                elements(knowns.0, knowns.1, "knowns")?,
-                elements(seed.0, seed.1, "seed")?,
-            )
-        };
-        let (of_seed, of_result) = ((seed.len(), "nSeed"), (sensitivity.1, "nSensitivity"));
+        let (of_seed, of_result) = ((seed.1, "nSeed"), (sensitivity.1, "nSensitivity"));
         let (rows, columns) = match is_adjoint {
             true => (of_seed, of_result),
             false => (of_result, of_seed),
         };
-        let (kind, access) = (Kind::Float64, Access::Set);
-        instance.with_elements(kind, access, unknowns, rows, &mut |instance, unknowns| {
-            instance.with_elements(kind, access, knowns, columns, &mut |instance, knowns| {
-                if is_adjoint {
-                    let sums = adjoint(instance, unknowns, knowns, seed)?;
-                    fill(room()?, sums);
-                } else {
-                    let block = &mut instance.block;
-                    let changes = block.directional_derivative(unknowns, knowns, seed)?;
-                    fill(room()?, changes);
-                }
-                Ok(())
+        let what = (Kind::Float64, Time::Refused);
+        let (of_unknowns, of_knowns) = ((unknowns, "unknowns"), (knowns, "knowns"));
+        let compute = |instance: &mut Instance, unknowns: &[_], knowns: &[_]| {
+            // SAFETY: passed on from the caller.
+            let seed = unsafe { elements(seed.0, seed.1, "seed")? };
+            if is_adjoint {
+                let sums = adjoint(instance, unknowns, knowns, seed)?;
+                fill(room()?, sums);
+            } else {
+                let block = &mut instance.block;
+                let changes = block.directional_derivative(unknowns, knowns, seed)?;
+                fill(room()?, changes);
+            }
+            Ok(())
+        };
+        // SAFETY: passed on from the caller.
+        unsafe {
+            instance.with_elements(what, of_unknowns, rows, &mut |instance, unknowns| {
+                instance.with_elements(what, of_knowns, columns, &mut |instance, knowns| {
+                    compute(instance, unknowns, knowns)
+                })
             })
-        })
+        }
     };
     // SAFETY: passed on from the caller.
     unsafe { call(instance, function, body) }

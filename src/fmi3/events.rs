@@ -16,7 +16,7 @@ use crate::fmi::{
 pub unsafe extern "C" fn fmi3EnterEventMode(instance: fmi3Instance) -> fmi3Status {
     let body = |instance: &mut Instance| {
         let is_stepping = instance.interface == Interface::CoSimulation;
-        if is_stepping && !instance.importer.has_event_mode {
+        if is_stepping && !instance.options.has_event_mode {
             return refuse(
                 "the instance was made with eventModeUsed = false; events happen between its steps by themselves".into(),
             );

@@ -5,18 +5,18 @@
 
 use super::{
     types::*,
-    variables::{Access, Kind},
+    variables::{Kind, References, Time},
 };
 use crate::{
-    block::{RotorBlock, variables::TIME_REFERENCE},
+    block::{RotorBlock, variables::INTEGERS},
     fmi::{
         arguments::{elements, room},
+        get_set::Room,
         instance::{Instance, Message, Outcome, call, no_memory},
         legality::Function,
         types::ValueReference,
     },
 };
-use core::mem::MaybeUninit;
 
 /// Reads variables of one kind.
 ///
@@ -26,21 +26,18 @@ unsafe fn get<T>(
     instance: fmi3Instance,
     function: &'static Function,
     kind: Kind,
-    references: (*const fmi3ValueReference, usize),
+    references: References,
     values: (*mut T, usize),
-    write: fn(&mut Instance, &[ValueReference], &mut [MaybeUninit<T>]) -> Outcome,
+    write: fn(&mut Instance, &[ValueReference], Room<'_, T>) -> Outcome,
 ) -> fmi3Status {
     let body = |instance: &mut Instance| {
-        // SAFETY: passed on from the caller.
-        let (references, room) = unsafe {
-            (
-                elements(references.0, references.1, "valueReferences")?,
-                room(values.0, values.1, "values")?,
-            )
+        let mut read = |instance: &mut Instance, vr: &[ValueReference]| {
+            // SAFETY: passed on from the caller. The importer's value references have been read.
+            write(instance, vr, unsafe { room(values.0, values.1, "values")? })
         };
-        let count = (room.len(), "nValues");
-        let mut read = |instance: &mut Instance, vr: &[ValueReference]| write(instance, vr, room);
-        instance.with_elements(kind, Access::Get, references, count, &mut read)
+        let (what, count) = ((kind, Time::Allowed), (values.1, "nValues"));
+        // SAFETY: passed on from the caller.
+        unsafe { instance.with_elements(what, (references, "valueReferences"), count, &mut read) }
     };
     // SAFETY: passed on from the caller.
     unsafe { call(instance, function, body) }
@@ -54,21 +51,20 @@ unsafe fn set<T>(
     instance: fmi3Instance,
     function: &'static Function,
     kind: Kind,
-    references: (*const fmi3ValueReference, usize),
+    references: References,
     values: (*const T, usize),
     write: fn(&mut Instance, &[ValueReference], &[T]) -> Outcome,
 ) -> fmi3Status {
     let body = |instance: &mut Instance| {
-        // SAFETY: passed on from the caller.
-        let (references, values) = unsafe {
-            (
-                elements(references.0, references.1, "valueReferences")?,
-                elements(values.0, values.1, "values")?,
-            )
+        let mut set = |instance: &mut Instance, vr: &[ValueReference]| {
+            // SAFETY: passed on from the caller.
+            write(instance, vr, unsafe {
+                elements(values.0, values.1, "values")?
+            })
         };
-        let count = (values.len(), "nValues");
-        let mut set = |instance: &mut Instance, vr: &[ValueReference]| write(instance, vr, values);
-        instance.with_elements(kind, Access::Set, references, count, &mut set)
+        let (what, count) = ((kind, Time::Refused), (values.1, "nValues"));
+        // SAFETY: passed on from the caller.
+        unsafe { instance.with_elements(what, (references, "valueReferences"), count, &mut set) }
     };
     // SAFETY: passed on from the caller.
     unsafe { call(instance, function, body) }
@@ -112,64 +108,13 @@ macro_rules! get_and_set {
 }
 
 get_and_set! {
-    fmi3GetFloat64, fmi3SetFloat64, Float64, fmi3Float64: get_reals,
+    fmi3GetFloat64, fmi3SetFloat64, Float64, fmi3Float64: Instance::get_reals,
         |instance, vr, values| Ok(instance.block.set_reals(vr, values)?);
-    fmi3GetInt32, fmi3SetInt32, Int32, fmi3Int32: get_integers,
+    fmi3GetInt32, fmi3SetInt32, Int32, fmi3Int32: Instance::get_integers,
         |instance, vr, values| Ok(instance.block.set_integers(vr, values)?);
-    fmi3GetInt64, fmi3SetInt64, Int64, fmi3Int64: get_integers, set_enumerations;
-    fmi3GetBoolean, fmi3SetBoolean, Boolean, fmi3Boolean: get_booleans, set_booleans;
-    fmi3GetString, fmi3SetString, String, fmi3String: get_strings, set_strings;
-}
-
-type Room<'a, T> = &'a mut [MaybeUninit<T>];
-
-fn get_reals(
-    instance: &mut Instance,
-    vr: &[ValueReference],
-    room: Room<'_, fmi3Float64>,
-) -> Outcome {
-    instance.refresh_reals(vr)?;
-    for (reference, slot) in vr.iter().zip(room) {
-        slot.write(match *reference {
-            TIME_REFERENCE => instance.experiment.time,
-            reference => instance.block.values().real(reference)?,
-        });
-    }
-    Ok(())
-}
-
-fn get_integers<T: From<i32>>(
-    instance: &mut Instance,
-    vr: &[ValueReference],
-    room: Room<'_, T>,
-) -> Outcome {
-    instance.refresh_integers(vr)?;
-    for (reference, slot) in vr.iter().zip(room) {
-        slot.write(instance.block.values().integer(*reference)?.into());
-    }
-    Ok(())
-}
-
-fn get_booleans(
-    instance: &mut Instance,
-    vr: &[ValueReference],
-    room: Room<'_, fmi3Boolean>,
-) -> Outcome {
-    for (reference, slot) in vr.iter().zip(room) {
-        slot.write(instance.block.values().boolean(*reference)?.into());
-    }
-    Ok(())
-}
-
-fn get_strings(
-    instance: &mut Instance,
-    vr: &[ValueReference],
-    room: Room<'_, fmi3String>,
-) -> Outcome {
-    for (reference, slot) in vr.iter().zip(room) {
-        slot.write(instance.kept_string(*reference)?);
-    }
-    Ok(())
+    fmi3GetInt64, fmi3SetInt64, Int64, fmi3Int64: Instance::get_integers, set_enumerations;
+    fmi3GetBoolean, fmi3SetBoolean, Boolean, fmi3Boolean: Instance::get_booleans, set_booleans;
+    fmi3GetString, fmi3SetString, String, fmi3String: Instance::get_strings, set_strings;
 }
 
 /// Called by fmi3SetString alone.
@@ -183,13 +128,13 @@ fn set_enumerations(
     vr: &[ValueReference],
     values: &[fmi3Int64],
 ) -> Outcome {
-    with_integers(instance, values, |block, items| {
+    with_integers(instance, vr, values, |block, items| {
         Ok(block.set_integers(vr, items)?)
     })
 }
 
 fn set_booleans(instance: &mut Instance, vr: &[ValueReference], values: &[fmi3Boolean]) -> Outcome {
-    with_integers(instance, values, |block, values| {
+    with_integers(instance, vr, values, |block, values| {
         Ok(block.set_booleans(vr, values)?)
     })
 }
@@ -197,23 +142,27 @@ fn set_booleans(instance: &mut Instance, vr: &[ValueReference], values: &[fmi3Bo
 /// Sets values of another width than the block's.
 fn with_integers<T: Copy + Into<i64>>(
     instance: &mut Instance,
+    vr: &[ValueReference],
     values: &[T],
     set: impl FnOnce(&mut RotorBlock, &[i32]) -> Outcome,
 ) -> Outcome {
     let mut integers = std::mem::take(&mut instance.integers);
     integers.clear();
-    let narrow = |value: &T| {
+    let narrow = |(reference, value): (&ValueReference, &T)| {
         let value = (*value).into();
         let integer = value.try_into().map_err(|_| {
+            let name = INTEGERS
+                .get(*reference as usize)
+                .map_or("a value", |v| v.name);
             Message::Error(format!(
-                "{value} is not an item of an enumeration; see modelDescription.xml"
+                "{name} = {value} is not allowed; see its items in modelDescription.xml"
             ))
         })?;
         integers.try_reserve(1).map_err(no_memory)?;
         integers.push(integer);
         Ok(())
     };
-    let outcome = values.iter().try_for_each(narrow);
+    let outcome = vr.iter().zip(values).try_for_each(narrow);
     let outcome = outcome.and_then(|()| set(&mut instance.block, &integers));
     instance.integers = integers;
     outcome

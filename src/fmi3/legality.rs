@@ -2,15 +2,17 @@
 //! (Co-Simulation) and 3.2 (Model Exchange).
 //!
 //! Where the sections have conditions on the variable, the block keeps them: what may be set when
-//! (`block::Stage`). In four points this FMU is more lenient than the sections:
+//! (`block::Stage`). In three points this FMU is more lenient than the sections:
 //!
 //! * An error does not bring it into the state Terminated: it stays where it was, as its values do.
 //! * Values can also be read in the state Instantiated, as the section's table says and its list of
 //!   functions does not.
 //! * fmi3SetTime is accepted in Event Mode, as in FMI 2.0, because no equation contains time; the
 //!   numbers of states and event indicators, which never change, can always be asked for.
-//! * Configuration Mode can be entered, although there are no structural parameters: parameters can
-//!   be set there, and in Reconfiguration Mode those that are tunable.
+//!
+//! Without structural parameters there is no Configuration or Reconfiguration Mode. The functions
+//! for them refuse every call with their own sentence. Tunable parameters are set in Event Mode and
+//! Step Mode, like inputs.
 //!
 //! During an intermediate update it is stricter: nothing but the functions that read and set
 //! variables may be called there, not even those for the complete state, in the middle of a step.
@@ -18,15 +20,12 @@
 use crate::fmi::legality::*;
 
 // Sets of states.
-const CONFIGURATION: States = CONFIGURATION_MODE | RECONFIGURATION_MODE;
-const INITIALIZED: States = EVENT_MODE | STEP_MODE | CONTINUOUS_TIME_MODE | RECONFIGURATION_MODE;
-const SETTABLE: States =
-    INSTANTIATED | CONFIGURATION_MODE | INITIALIZATION_MODE | INITIALIZED | TERMINATED;
-const ALIVE: States = SETTABLE | INTERMEDIATE_SET | INTERMEDIATE_GET;
-const COMPUTED: States =
-    INITIALIZATION_MODE | EVENT_MODE | STEP_MODE | CONTINUOUS_TIME_MODE | TERMINATED;
-const READ: States = INSTANTIATED | COMPUTED;
-const WRITE: States = INSTANTIATED | INITIALIZATION_MODE | EVENT_MODE | STEP_MODE | CONFIGURATION;
+const INITIALIZED: States = EVENT_MODE | STEP_MODE | CONTINUOUS_TIME_MODE;
+const COMPUTED: States = INITIALIZATION_MODE | INITIALIZED | TERMINATED;
+/// Not in the middle of a step.
+const AT_REST: States = INSTANTIATED | COMPUTED;
+const ALIVE: States = AT_REST | INTERMEDIATE_SET | INTERMEDIATE_GET;
+const WRITE: States = INSTANTIATED | INITIALIZATION_MODE | EVENT_MODE | STEP_MODE;
 const CONTINUOUS_WRITE: States = WRITE | CONTINUOUS_TIME_MODE;
 const CLOCKS: States = INITIALIZATION_MODE | EVENT_MODE;
 
@@ -38,25 +37,25 @@ functions! {
     fmi3InstantiateModelExchange: START_AND_END, START_AND_END;
     fmi3InstantiateCoSimulation: START_AND_END, START_AND_END;
     fmi3InstantiateScheduledExecution: START_AND_END, START_AND_END;
-    fmi3FreeInstance: SETTABLE, SETTABLE;
+    fmi3FreeInstance: AT_REST, AT_REST;
     fmi3EnterInitializationMode: INSTANTIATED, INSTANTIATED;
     fmi3ExitInitializationMode: INITIALIZATION_MODE, INITIALIZATION_MODE;
     fmi3EnterEventMode: STEP_MODE, CONTINUOUS_TIME_MODE;
     fmi3Terminate: INITIALIZED, INITIALIZED;
-    fmi3Reset: SETTABLE, SETTABLE;
-    fmi3GetFloat32: READ, READ;
-    fmi3GetFloat64: READ | INTERMEDIATE_GET, READ;
-    fmi3GetInt8: READ, READ;
-    fmi3GetUInt8: READ, READ;
-    fmi3GetInt16: READ, READ;
-    fmi3GetUInt16: READ, READ;
-    fmi3GetInt32: READ, READ;
-    fmi3GetUInt32: READ, READ;
-    fmi3GetInt64: READ, READ;
-    fmi3GetUInt64: READ, READ;
-    fmi3GetBoolean: READ, READ;
-    fmi3GetString: READ, READ;
-    fmi3GetBinary: READ, READ;
+    fmi3Reset: AT_REST, AT_REST;
+    fmi3GetFloat32: AT_REST, AT_REST;
+    fmi3GetFloat64: AT_REST | INTERMEDIATE_GET, AT_REST;
+    fmi3GetInt8: AT_REST, AT_REST;
+    fmi3GetUInt8: AT_REST, AT_REST;
+    fmi3GetInt16: AT_REST, AT_REST;
+    fmi3GetUInt16: AT_REST, AT_REST;
+    fmi3GetInt32: AT_REST, AT_REST;
+    fmi3GetUInt32: AT_REST, AT_REST;
+    fmi3GetInt64: AT_REST, AT_REST;
+    fmi3GetUInt64: AT_REST, AT_REST;
+    fmi3GetBoolean: AT_REST, AT_REST;
+    fmi3GetString: AT_REST, AT_REST;
+    fmi3GetBinary: AT_REST, AT_REST;
     fmi3GetClock: EVENT_MODE, EVENT_MODE;
     fmi3SetFloat32: CONTINUOUS_WRITE, CONTINUOUS_WRITE;
     fmi3SetFloat64: CONTINUOUS_WRITE | INTERMEDIATE_SET, CONTINUOUS_WRITE;
@@ -72,18 +71,18 @@ functions! {
     fmi3SetString: WRITE, WRITE;
     fmi3SetBinary: WRITE, WRITE;
     fmi3SetClock: EVENT_MODE, EVENT_MODE;
-    fmi3GetNumberOfVariableDependencies: SETTABLE, SETTABLE;
-    fmi3GetVariableDependencies: SETTABLE, SETTABLE;
-    fmi3GetFMUState: SETTABLE, SETTABLE;
-    fmi3SetFMUState: SETTABLE, SETTABLE;
-    fmi3FreeFMUState: SETTABLE, SETTABLE;
-    fmi3SerializedFMUStateSize: SETTABLE, SETTABLE;
-    fmi3SerializeFMUState: SETTABLE, SETTABLE;
-    fmi3DeserializeFMUState: SETTABLE, SETTABLE;
+    fmi3GetNumberOfVariableDependencies: AT_REST, AT_REST;
+    fmi3GetVariableDependencies: AT_REST, AT_REST;
+    fmi3GetFMUState: AT_REST, AT_REST;
+    fmi3SetFMUState: AT_REST, AT_REST;
+    fmi3FreeFMUState: AT_REST, AT_REST;
+    fmi3SerializedFMUStateSize: AT_REST, AT_REST;
+    fmi3SerializeFMUState: AT_REST, AT_REST;
+    fmi3DeserializeFMUState: AT_REST, AT_REST;
     fmi3GetDirectionalDerivative: COMPUTED, COMPUTED;
     fmi3GetAdjointDerivative: COMPUTED, COMPUTED;
-    fmi3EnterConfigurationMode: INSTANTIATED | STEP_MODE, INSTANTIATED | EVENT_MODE;
-    fmi3ExitConfigurationMode: CONFIGURATION, CONFIGURATION;
+    fmi3EnterConfigurationMode: ALIVE, ALIVE;
+    fmi3ExitConfigurationMode: ALIVE, ALIVE;
     fmi3GetIntervalDecimal: CLOCKS, CLOCKS;
     fmi3GetIntervalFraction: CLOCKS, CLOCKS;
     fmi3GetShiftDecimal: INITIALIZATION_MODE, INITIALIZATION_MODE;
@@ -102,9 +101,9 @@ functions! {
     fmi3GetContinuousStateDerivatives: NEVER, COMPUTED;
     fmi3GetEventIndicators: NEVER, COMPUTED;
     fmi3GetContinuousStates: NEVER, COMPUTED;
-    fmi3GetNominalsOfContinuousStates: NEVER, COMPUTED | RECONFIGURATION_MODE;
-    fmi3GetNumberOfEventIndicators: NEVER, SETTABLE;
-    fmi3GetNumberOfContinuousStates: NEVER, SETTABLE;
+    fmi3GetNominalsOfContinuousStates: NEVER, COMPUTED;
+    fmi3GetNumberOfEventIndicators: NEVER, AT_REST;
+    fmi3GetNumberOfContinuousStates: NEVER, AT_REST;
     // Co-Simulation only
     fmi3EnterStepMode: EVENT_MODE, NEVER;
     fmi3GetOutputDerivatives: STEP_MODE | INTERMEDIATE_GET | TERMINATED, NEVER;
@@ -133,7 +132,7 @@ mod tests {
         };
         assert_eq!(
             refusal(Function::fmi3SetInt32, Interface::CoSimulation, TERMINATED),
-            "fmi3SetInt32 must not be called in the state terminated; it may be called in instantiated, Configuration Mode, Initialization Mode, Event Mode, Step Mode, Reconfiguration Mode"
+            "fmi3SetInt32 must not be called in the state terminated; it may be called in instantiated, Initialization Mode, Event Mode, Step Mode"
         );
         assert_eq!(
             refusal(

@@ -1,6 +1,5 @@
 //! From the initialisation to the end: fmi3Functions.h, "Enter and exit initialization mode, enter
-//! event mode, terminate and reset", and "Entering and exiting the Configuration or Reconfiguration
-//! Mode".
+//! event mode, terminate and reset".
 
 #![allow(non_snake_case)]
 
@@ -8,7 +7,7 @@ use super::types::*;
 use crate::fmi::{
     Experiment,
     instance::{Instance, call},
-    legality::*,
+    legality::{Function, INITIALIZATION_MODE, TERMINATED},
 };
 
 /// # Safety
@@ -59,35 +58,4 @@ pub unsafe extern "C" fn fmi3Terminate(instance: fmi3Instance) -> fmi3Status {
 pub unsafe extern "C" fn fmi3Reset(instance: fmi3Instance) -> fmi3Status {
     // SAFETY: passed on from the caller.
     unsafe { call(instance, Function::fmi3Reset, Instance::reset) }
-}
-
-/// # Safety
-/// As in the standard: `instance` lives.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3EnterConfigurationMode(instance: fmi3Instance) -> fmi3Status {
-    let body = |instance: &mut Instance| {
-        instance.state = match instance.state {
-            INSTANTIATED => CONFIGURATION_MODE,
-            _ => RECONFIGURATION_MODE,
-        };
-        Ok(())
-    };
-    // SAFETY: passed on from the caller.
-    unsafe { call(instance, Function::fmi3EnterConfigurationMode, body) }
-}
-
-/// # Safety
-/// As in the standard: `instance` lives.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn fmi3ExitConfigurationMode(instance: fmi3Instance) -> fmi3Status {
-    let body = |instance: &mut Instance| {
-        instance.state = match (instance.state, instance.interface) {
-            (CONFIGURATION_MODE, _) => INSTANTIATED,
-            (_, Interface::CoSimulation) => STEP_MODE,
-            (_, Interface::ModelExchange) => EVENT_MODE,
-        };
-        Ok(())
-    };
-    // SAFETY: passed on from the caller.
-    unsafe { call(instance, Function::fmi3ExitConfigurationMode, body) }
 }

@@ -9,7 +9,7 @@ use crate::{
         arguments::room_for_one,
         instance::{Instance, call},
         legality::Function,
-        model_exchange::{Vector, check_count, set_states, state_vector},
+        model_exchange::{Vector, check_count, completed_step, set_states, state_vector},
     },
 };
 
@@ -33,20 +33,9 @@ pub unsafe extern "C" fn fmi3CompletedIntegratorStep(
     enterEventMode: *mut fmi3Boolean,
     terminateSimulation: *mut fmi3Boolean,
 ) -> fmi3Status {
-    let body = |instance: &mut Instance| {
-        // SAFETY: passed on from the caller. One reference ends before the next is made, because an
-        // importer may pass the same place twice; the event then counts.
-        unsafe {
-            room_for_one(enterEventMode, "enterEventMode")?;
-            room_for_one(terminateSimulation, "terminateSimulation")?;
-            let has_event = instance.block.has_event()?;
-            room_for_one(terminateSimulation, "terminateSimulation")?.write(FMI3_FALSE);
-            room_for_one(enterEventMode, "enterEventMode")?.write(has_event.into());
-        }
-        Ok(())
-    };
+    let function = Function::fmi3CompletedIntegratorStep;
     // SAFETY: passed on from the caller.
-    unsafe { call(instance, Function::fmi3CompletedIntegratorStep, body) }
+    unsafe { completed_step(instance, function, enterEventMode, terminateSimulation) }
 }
 
 // ------------------------------------------------------------------ time and states

@@ -1,5 +1,6 @@
-//! The functions for what this FMU does not have: variables of other types, clocks, discrete states
-//! to be evaluated, and model partitions. Each checks its state and refuses.
+//! The functions for what this FMU does not have: variables of other types, structural parameters,
+//! clocks, discrete states to be evaluated, and model partitions. Each checks its state and
+//! refuses.
 
 #![allow(non_snake_case)]
 
@@ -11,6 +12,7 @@ use crate::fmi::{
 
 const NO_VARIABLES: &str = "this FMU has no variables of that type; see modelDescription.xml";
 const NO_CLOCKS: &str = "this FMU has no clocks";
+const NO_MODE: &str = "this FMU has no structural parameters; parameters are set before the initialization ends, and tunable ones also in Event Mode and between steps";
 
 macro_rules! not_offered {
     ($($name:ident($($type:ty),*): $sentence:expr;)*) => {$(
@@ -68,6 +70,8 @@ not_offered! {
     fmi3SetIntervalFraction(References, usize, *const fmi3UInt64, *const fmi3UInt64): NO_CLOCKS;
     fmi3SetShiftDecimal(References, usize, *const f64): NO_CLOCKS;
     fmi3SetShiftFraction(References, usize, *const fmi3UInt64, *const fmi3UInt64): NO_CLOCKS;
+    fmi3EnterConfigurationMode(): NO_MODE;
+    fmi3ExitConfigurationMode(): NO_MODE;
     fmi3EvaluateDiscreteStates(): "modelDescription.xml says providesEvaluateDiscreteStates = false";
     fmi3ActivateModelPartition(fmi3ValueReference, f64): NO_CLOCKS;
 }

@@ -2,7 +2,9 @@
 
 #![allow(non_camel_case_types, non_snake_case)]
 
-use crate::fmi::types::{Component, Environment, StatePointer, Status, Text, ValueReference};
+use crate::fmi::types::{
+    Component, Environment, IntermediateUpdate, StatePointer, Status, Text, ValueReference,
+};
 use core::ffi::c_int;
 
 pub type fmi3Instance = Component;
@@ -33,16 +35,7 @@ pub const FMI3_DEPENDENT: fmi3DependencyKind = 5;
 pub type fmi3LogMessageCallback =
     unsafe extern "C" fn(fmi3InstanceEnvironment, fmi3Status, fmi3String, fmi3String);
 
-pub type fmi3IntermediateUpdateCallback = unsafe extern "C" fn(
-    instanceEnvironment: fmi3InstanceEnvironment,
-    intermediateUpdateTime: fmi3Float64,
-    intermediateVariableSetRequested: fmi3Boolean,
-    intermediateVariableGetAllowed: fmi3Boolean,
-    intermediateStepFinished: fmi3Boolean,
-    canReturnEarly: fmi3Boolean,
-    earlyReturnRequested: *mut fmi3Boolean,
-    earlyReturnTime: *mut fmi3Float64,
-);
+pub type fmi3IntermediateUpdateCallback = IntermediateUpdate;
 
 pub type fmi3ClockUpdateCallback = unsafe extern "C" fn(fmi3InstanceEnvironment);
 pub type fmi3LockPreemptionCallback = unsafe extern "C" fn();

@@ -8,6 +8,7 @@ use crate::{
         ARRAYS, BLOCK_OF_REFERENCES, BOOLEANS, Causality, INTEGERS, REALS, STRINGS, TIME_REFERENCE,
     },
     fmi::{
+        arguments::elements,
         instance::{Instance, Message, Outcome, no_memory, refuse},
         legality::{INTERMEDIATE_GET, INTERMEDIATE_SET},
         types::ValueReference,
@@ -83,47 +84,52 @@ pub fn variable(reference: fmi3ValueReference) -> Result<Variable, Message> {
     })
 }
 
-/// What a function does with the variables that it is given.
+/// Whether `time` may be among the variables that a function is given.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Access {
-    /// `time` is among them then.
-    Get,
-    Set,
+pub enum Time {
+    Allowed,
+    Refused,
 }
+
+/// The importer's array of value references.
+pub type References = (*const fmi3ValueReference, usize);
 
 impl Instance {
     /// Calls `then` with the value references in FMI 2.0 of all elements of variables. An error if
     /// the variables are of another kind, may not be accessed now, or have another number of
-    /// elements than there are values.
-    pub fn with_elements(
+    /// elements than there are values. `then` may write where the value references were.
+    ///
+    /// # Safety
+    /// `references` has as many elements as its count says.
+    pub unsafe fn with_elements(
         &mut self,
-        kind: Kind,
-        access: Access,
-        references: &[fmi3ValueReference],
+        (kind, time): (Kind, Time),
+        (references, name): (References, &str),
         values: (usize, &str),
         then: &mut dyn FnMut(&mut Self, &[ValueReference]) -> Outcome,
     ) -> Outcome {
-        let mut elements = std::mem::take(&mut self.references);
-        elements.clear();
-        let outcome = self
-            .push_elements(kind, access, references, &mut elements)
-            .and_then(|()| check_values(values, elements.len()))
-            .and_then(|()| then(self, &elements));
-        self.references = elements;
+        let mut all = std::mem::take(&mut self.references);
+        all.clear();
+        // SAFETY: passed on from the caller.
+        let outcome = unsafe { elements(references.0, references.1, name) }
+            .and_then(|references| self.push_elements(kind, time, references, &mut all))
+            .and_then(|()| check_values(values, all.len()))
+            .and_then(|()| then(self, &all));
+        self.references = all;
         outcome
     }
 
     fn push_elements(
         &self,
         kind: Kind,
-        access: Access,
+        time: Time,
         references: &[fmi3ValueReference],
         elements: &mut Vec<ValueReference>,
     ) -> Outcome {
         let is_update = (INTERMEDIATE_SET | INTERMEDIATE_GET) & self.state != 0;
         for reference in references {
             let variable = match *reference {
-                TIME_REFERENCE if kind == Kind::Float64 && access == Access::Get => Variable {
+                TIME_REFERENCE if kind == Kind::Float64 && time == Time::Allowed => Variable {
                     kind,
                     name: "time",
                     first: TIME_REFERENCE,
@@ -141,7 +147,12 @@ impl Instance {
                     variable.kind
                 ));
             }
-            if is_update && !self.importer.required.contains(reference) {
+            if is_update && !has_intermediate_values(*reference) {
+                return refuse(format!(
+                    "{name} cannot be accessed during a step; modelDescription.xml does not say intermediateUpdate = true of it"
+                ));
+            }
+            if is_update && !self.options.required.contains(reference) {
                 return refuse(format!(
                     "{name} is not among the requiredIntermediateVariables of the instance; name it there"
                 ));

@@ -11,7 +11,9 @@ use crate::support::{
     fmu::uri,
     instance::{logger, reference},
 };
-use helicopter_rotor::block::variables::{BOOLEANS, GUID, INTEGERS, REALS, STRINGS};
+use helicopter_rotor::block::variables::{
+    BOOLEANS, GUID, INSTANTIATION_TOKEN, INTEGERS, REALS, STRINGS,
+};
 use std::{
     ffi::{CStr, CString, c_void},
     ptr,
@@ -229,4 +231,50 @@ fn an_allocation_that_fails_is_an_error_or_nothing_and_kills_nobody() {
     }
     child::watched(|| println!("{tried} failing allocations, {refused} calls refused"));
     assert!(tried > 500 && refused > 100, "{tried}, {refused}");
+}
+
+/// The list of variables for intermediate updates stays with the instance, so that it must fit.
+#[test]
+fn an_instance_without_memory_for_its_intermediate_variables_is_refused() {
+    let name = "no_memory::an_instance_without_memory_for_its_intermediate_variables_is_refused";
+    if child::run_counting(name).is_some() {
+        return;
+    }
+    let (tool, fmu) = (Allocations::find(), Fmu::shared());
+    let (make, free) = (
+        fmu.of_fmi3.fmi3InstantiateCoSimulation,
+        fmu.of_fmi3.fmi3FreeInstance,
+    );
+    let token = CString::new(INSTANTIATION_TOKEN).unwrap();
+    let resources = CString::new(fmu.resources().to_str().unwrap()).unwrap();
+    let (token, resources) = (token.as_ptr(), resources.as_ptr());
+    let required = reference(&REALS, "collective");
+    let refusals = |count: usize| {
+        let begin = |failing: i64| {
+            tool.fail(failing, false, || {
+                let (name, none) = (c"rotor".as_ptr(), ptr::null_mut());
+                // SAFETY: the pointers live during the call.
+                unsafe {
+                    make(
+                        name, token, resources, 0, 0, 0, 0, &required, count, none, None, None,
+                    )
+                }
+            })
+        };
+        let end = |instance| {
+            // SAFETY: the instance lives, or there is none.
+            unsafe { free(instance) }
+        };
+        let (instance, allocations) = begin(0);
+        end(instance);
+        let refused = (1..=allocations).filter(|failing| {
+            let (instance, _) = begin(*failing);
+            end(instance);
+            instance.is_null()
+        });
+        refused.count()
+    };
+    let without = refusals(0);
+    assert!(without > 3, "{without}");
+    assert_eq!(refusals(1), without + 1);
 }

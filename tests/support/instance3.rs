@@ -25,7 +25,10 @@ pub struct Variable {
     pub reference: Reference,
     pub count: usize,
     pub causality: String,
+    pub variability: String,
     pub is_intermediate: bool,
+    /// The start values of its elements: one if they are alike, none if there are none.
+    pub start: Vec<String>,
 }
 
 /// All variables by name, as modelDescription.xml of FMI 3.0 has them.
@@ -46,7 +49,17 @@ pub fn variables() -> &'static BTreeMap<String, Variable> {
                 reference: attribute("valueReference").parse().unwrap(),
                 count: dimension.map_or(1, |d| d.attribute("start").unwrap().parse().unwrap()),
                 causality: attribute("causality"),
+                variability: attribute("variability"),
                 is_intermediate: node.attribute("intermediateUpdate") == Some("true"),
+                start: match node.attribute("start") {
+                    Some(start) => start.split_whitespace().map(str::to_owned).collect(),
+                    None => {
+                        let starts = node.children().filter(|n| n.has_tag_name("Start"));
+                        starts
+                            .map(|n| n.attribute("value").unwrap().to_owned())
+                            .collect()
+                    }
+                },
             };
             (variable.name.clone(), variable)
         };
@@ -130,11 +143,19 @@ unsafe extern "C" fn update(
     }
 }
 
+/// What an instance is made for.
+#[derive(Clone, Copy, PartialEq)]
+pub enum Kind {
+    CoSimulation,
+    ModelExchange,
+    ScheduledExecution,
+}
+
 /// The arguments of the functions that make instances.
 #[derive(Clone)]
 pub struct Creation3<'a> {
     pub token: &'a str,
-    pub is_model_exchange: bool,
+    pub kind: Kind,
     pub logging_on: bool,
     pub event_mode: bool,
     pub early_return: bool,
@@ -147,7 +168,7 @@ impl Default for Creation3<'_> {
     fn default() -> Self {
         Self {
             token: INSTANTIATION_TOKEN,
-            is_model_exchange: false,
+            kind: Kind::CoSimulation,
             logging_on: true,
             event_mode: false,
             early_return: false,
@@ -192,11 +213,12 @@ impl Creation3<'_> {
         let place = ptr::from_ref(&*environment).cast_mut().cast();
         // SAFETY: the pointers live during the call; the environment outlives the instance.
         let pointer = unsafe {
-            if self.is_model_exchange {
-                let make = functions.fmi3InstantiateModelExchange;
-                make(name, token, resources, 0, logging_on, place, Some(collect))
-            } else {
-                (functions.fmi3InstantiateCoSimulation)(
+            match self.kind {
+                Kind::ModelExchange => {
+                    let make = functions.fmi3InstantiateModelExchange;
+                    make(name, token, resources, 0, logging_on, place, Some(collect))
+                }
+                Kind::CoSimulation => (functions.fmi3InstantiateCoSimulation)(
                     name,
                     token,
                     resources,
@@ -209,7 +231,19 @@ impl Creation3<'_> {
                     place,
                     Some(collect),
                     callback,
-                )
+                ),
+                Kind::ScheduledExecution => (functions.fmi3InstantiateScheduledExecution)(
+                    name,
+                    token,
+                    resources,
+                    0,
+                    logging_on,
+                    place,
+                    Some(collect),
+                    None,
+                    None,
+                    None,
+                ),
             }
         };
         if pointer.is_null() {
@@ -239,7 +273,7 @@ impl Instance3 {
 
     pub fn for_model_exchange() -> Self {
         let creation = Creation3 {
-            is_model_exchange: true,
+            kind: Kind::ModelExchange,
             ..Creation3::default()
         };
         creation.make().unwrap()

@@ -2,10 +2,11 @@
 //!
 //! * `block.rs`: the block and its variables, without the C interface
 //! * `exact.rs`: its exact derivatives beside its values
-//! * `c.rs`, `c3.rs`: the C types and functions of FMI 2.0 and 3.0, written apart from the code under
-//!   test
+//! * `c.rs`, `c3.rs`: the C types and functions of FMI 2.0 and 3.0, written apart from the code
+//!   under test
 //! * `fmu.rs`: the FMU as an importer has it on its disk, loaded
-//! * `instance.rs`, `instance3.rs`: an instance of FMI 2.0 or 3.0 with variables by name, and its log
+//! * `instance.rs`, `instance3.rs`: an instance of FMI 2.0 or 3.0 with variables by name, and its
+//!   log
 //! * `model_exchange.rs`: its functions of Model Exchange
 //! * `child.rs`: a test run alone in a process of its own
 //! * `allocations.rs`: counting allocations in such a process, and letting them fail

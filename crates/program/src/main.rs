@@ -25,13 +25,13 @@ use std::{
 };
 use validation::Purpose;
 
-/// Makes HelicopterRotor.fmu, a helicopter rotor as an FMU for Co-Simulation and Model Exchange, for
-/// FMI 2.0 and, as HelicopterRotor-fmi3.fmu, for FMI 3.0.
+/// Makes HelicopterRotor.fmu, a helicopter rotor as an FMU for Co-Simulation and Model Exchange,
+/// for FMI 2.0 and, as HelicopterRotor-fmi3.fmu, for FMI 3.0.
 ///
 /// Without a command: makes target/fmu/HelicopterRotor.fmu and the file of FMI 3.0 beside it, flies
 /// the rotors that Knight & Hefner measured in 1937 with the former in FMPy, prints computed and
-/// measured thrust and torque, and plots them beside the FMU. FMPy and the other Python packages are
-/// installed into an environment of their own in target/python.
+/// measured thrust and torque, and plots them beside the FMU. FMPy and the other Python packages
+/// are installed into an environment of their own in target/python.
 ///
 /// Files and folders are replaced when the new ones are complete, and not before. Where one is
 /// given as a symbolic link, the link stays and the file or folder to which it leads is written.
@@ -72,8 +72,8 @@ enum Command {
     New(rotor_file::New),
     /// Make the page: the rotor in a browser, as one HTML file that needs no server
     ///
-    /// Builds the FMU's library in WebAssembly, for which Rust's standard library must be installed:
-    /// `rustup target add wasm32-unknown-unknown`.
+    /// Builds the FMU's library in WebAssembly, for which Rust's standard library must be
+    /// installed: `rustup target add wasm32-unknown-unknown`.
     Page {
         /// The HTML file to write [default: target/page/HelicopterRotor.html]
         #[arg(long, value_name = "FILE")]

@@ -1,6 +1,6 @@
-//! The page: one HTML file with the FMU's library in WebAssembly, which needs no server and no other
-//! file. Its sources are in page/; this puts them, the library, modelDescription.xml and measured
-//! points into one.
+//! The page: one HTML file with the FMU's library in WebAssembly, which needs no server and no
+//! other file. Its sources are in page/; this puts them, the library, modelDescription.xml and
+//! measured points into one.
 
 use crate::{
     Failure,
@@ -50,8 +50,8 @@ fn packed(library: &[u8]) -> Result<Vec<u8>, Failure> {
         .map_err(failed("cannot compress the page's library"))
 }
 
-/// The page with the content of its scripts and style sheets, each on a line of its own, in place of
-/// their names.
+/// The page with the content of its scripts and style sheets, each on a line of its own, in place
+/// of their names.
 fn inlined(page: &str, read: impl Fn(&str) -> Result<String, Failure>) -> Result<String, Failure> {
     const STYLE: (&str, &str) = (r#"<link rel="stylesheet" href=""#, r#"">"#);
     const SCRIPT: (&str, &str) = (r#" src=""#, r#""></script>"#);

@@ -5,7 +5,7 @@ use crate::support::{
     c::{self, Reference},
     instance3::{variable, variables},
 };
-use std::ptr;
+use std::{ffi::CStr, ptr};
 
 #[test]
 fn arrays_are_set_and_read_whole() {
@@ -169,7 +169,8 @@ fn variables_of_another_type_elements_of_arrays_and_unknown_ones_are_refused_by_
         );
         for value in [i64::from(i32::MAX) + 1, i64::MIN, 99, 0] {
             let message = instance.refused((f.fmi3SetInt64)(p, &inflow, 1, &value, 1));
-            assert!(message.contains(&value.to_string()), "{message}");
+            let expected = format!("models.inflow = {value} is not allowed");
+            assert!(message.contains(&expected), "{message}");
         }
     }
     assert!(
@@ -218,7 +219,7 @@ fn null_pointers_are_refused_where_something_should_be_behind_them() {
 }
 
 #[test]
-fn every_variable_is_read_by_the_functions_of_its_type() {
+fn every_variable_is_read_by_the_functions_of_its_type_and_has_its_start_value() {
     let instance = Instance3::new();
     let (f, p) = (instance.functions, instance.pointer);
     let mut count = 0;
@@ -238,7 +239,27 @@ fn every_variable_is_read_by_the_functions_of_its_type() {
             }
         };
         instance.ok(status);
+        // As text, with every digit.
+        let values: Vec<String> = match v.kind.as_str() {
+            "Float64" => x.iter().map(f64::to_string).collect(),
+            "Int32" => i.iter().map(i32::to_string).collect(),
+            "Enumeration" => l.iter().map(i64::to_string).collect(),
+            "Boolean" => b.iter().map(|b| (*b == 1).to_string()).collect(),
+            // SAFETY: the library's strings live until the next call.
+            _ => unsafe { vec![CStr::from_ptr(t[0]).to_str().unwrap().to_owned()] },
+        };
+        let start = match v.start.len() {
+            0 => continue,
+            1 => vec![v.start[0].clone(); n],
+            _ => v.start.clone(),
+        };
+        let same = |(a, b): (&String, &String)| match (a.parse::<f64>(), b.parse::<f64>()) {
+            (Ok(a), Ok(b)) => a == b,
+            _ => a == b,
+        };
+        let all = values.iter().zip(&start).all(same);
+        assert!(values.len() == start.len() && all, "{}: {values:?}", v.name);
         count += 1;
     }
-    assert!(count > 80, "{count}");
+    assert!(count > 50, "{count}");
 }

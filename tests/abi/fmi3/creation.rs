@@ -1,6 +1,10 @@
 //! Making instances, and mixing versions.
 
-use crate::support::{Fmu, Instance, Instance3, c, instance::reference, instance3::Creation3};
+use crate::support::{
+    Fmu, Instance, Instance3, c,
+    instance::reference,
+    instance3::{Creation3, Kind},
+};
 use helicopter_rotor::block::variables::{GUID, REALS};
 use std::ptr;
 
@@ -22,25 +26,18 @@ fn another_token_gives_no_instance_and_says_why_whether_logging_is_on_or_not() {
 
 #[test]
 fn scheduled_execution_is_not_offered() {
-    let f = &Fmu::shared().of_fmi3;
-    let make = f.fmi3InstantiateScheduledExecution;
-    let (name, none) = (c"rotor".as_ptr(), ptr::null());
-    // SAFETY: null pointers and a string that lives during the call.
-    let instance = unsafe {
-        make(
-            name,
-            none,
-            none,
-            0,
-            1,
-            ptr::null_mut(),
-            None,
-            None,
-            None,
-            None,
-        )
+    let creation = Creation3 {
+        kind: Kind::ScheduledExecution,
+        ..Creation3::default()
     };
-    assert!(instance.is_null());
+    let log = creation.make().err().unwrap();
+    assert_eq!(log.len(), 1);
+    let (line, name) = (&log[0], "fmi3InstantiateScheduledExecution");
+    assert_eq!(line.status, c::ERROR);
+    assert!(
+        line.message.starts_with(name) && line.message.contains("offer Scheduled Execution"),
+        "{line:?}"
+    );
 }
 
 #[test]
@@ -89,6 +86,10 @@ fn functions_of_one_version_refuse_instances_and_states_of_the_other() {
             log.iter()
                 .all(|line| line.message.contains("belongs to FMI 3.0"))
         );
+        (f2.fmi2FreeInstance)(three.pointer);
+        let log = three.take_log();
+        assert_eq!(log.len(), 1);
+        assert!(log[0].message.contains("belongs to FMI 2.0"), "{log:?}");
 
         let mut state = ptr::null_mut();
         assert_eq!((f2.fmi2GetFMUstate)(two.component, &mut state), c::OK);

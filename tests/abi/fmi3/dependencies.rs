@@ -9,9 +9,9 @@ use roxmltree::Document;
 use std::collections::BTreeSet;
 
 /// Element, known, element of the known.
-type Row = (usize, Reference, usize);
+pub type Row = (usize, Reference, usize);
 
-fn answered(instance: &Instance3, reference: Reference) -> Vec<Row> {
+pub fn answered(instance: &Instance3, reference: Reference) -> Vec<Row> {
     let (f, p) = (instance.functions, instance.pointer);
     let mut n = 0;
     // SAFETY: the pointers are valid for their counts.
@@ -84,6 +84,12 @@ fn each_flap_angle_depends_on_its_own_rate_and_parameters_on_nothing() {
     let rows = answered(&instance, variable("der(state.flapAngle)").reference);
     let expected: Vec<Row> = (1..=8).map(|blade| (blade, rate, blade)).collect();
     assert_eq!(rows, expected);
+    // A state is known then.
+    for (name, count) in [("state.inflow", 24), ("state.flapRate", 8), ("azimuth", 1)] {
+        let state = variable(name).reference;
+        let own: Vec<Row> = (1..=count).map(|i| (i, state, i)).collect();
+        assert_eq!(answered(&instance, state), own, "{name}");
+    }
     let rows = answered(&instance, variable("azimuth").reference);
     assert_eq!(rows, [(1, variable("azimuth").reference, 1)]);
     for name in ["collective", "geometry.radius", "settings", "time"] {

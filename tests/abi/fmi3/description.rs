@@ -2,7 +2,7 @@
 
 use crate::support::{Instance3, instance3::variables};
 use helicopter_rotor::{
-    block::variables::{GUID, INSTANTIATION_TOKEN, REALS, STATES},
+    block::variables::{BOOLEANS, GUID, INSTANTIATION_TOKEN, INTEGERS, REALS, STATES, STRINGS},
     description::{TERMINALS, TERMINALS_OF_FMI3, XML, XML_OF_FMI3},
 };
 use roxmltree::Document;
@@ -13,6 +13,44 @@ fn the_two_files_have_tokens_of_their_own() {
     assert_ne!(GUID, INSTANTIATION_TOKEN);
     assert!(XML.contains(GUID) && !XML.contains(INSTANTIATION_TOKEN));
     assert!(XML_OF_FMI3.contains(INSTANTIATION_TOKEN) && !XML_OF_FMI3.contains(GUID));
+}
+
+/// The page is in the archives of both versions.
+#[test]
+fn the_documentation_speaks_of_both_versions_and_names_variables_that_exist() {
+    let page = include_str!("../../../modelDescription/documentation/index.html");
+    assert!(page.contains("FMI 2.0") && page.contains("FMI 3.0"));
+    // Without indices, as a text may name elements by [1..3] or [..].
+    let bare = |name: &str| {
+        let mut parts = name.split('[');
+        let first = parts.next().unwrap_or_default().to_owned();
+        parts.fold(first, |all, part| {
+            all + part.split_once(']').map_or("", |(_, rest)| rest)
+        })
+    };
+    let of_fmi2 = (REALS.iter().map(|v| v.name))
+        .chain(INTEGERS.iter().map(|v| v.name))
+        .chain(BOOLEANS.iter().map(|v| v.name))
+        .chain(STRINGS.iter().map(|v| v.name));
+    let of_fmi3 = variables().keys().map(String::as_str);
+    let names: BTreeSet<String> = of_fmi2.chain(of_fmi3).map(bare).collect();
+    let groups = names.iter().filter_map(|name| name.split_once('.'));
+    let groups: BTreeSet<&str> = groups.map(|(group, _)| group).collect();
+    let mut count = 0;
+    for code in page.split("<code>").skip(1) {
+        let code = code.split("</code>").next().unwrap();
+        let name = code.split(" = ").next().unwrap();
+        let is_part = |c: char| c.is_ascii_alphanumeric() || ".[]()".contains(c);
+        let name_alone = bare(name);
+        let group = name_alone.split('.').next().unwrap();
+        let is_in_group = name_alone.contains('.') && groups.contains(group);
+        if name.chars().all(is_part) && (is_in_group || name.contains('[')) {
+            let is_whole_group = groups.contains(name_alone.as_str());
+            assert!(is_whole_group || names.contains(&name_alone), "{code}");
+            count += 1;
+        }
+    }
+    assert!(count > 60, "{count}");
 }
 
 #[test]
@@ -26,6 +64,22 @@ fn value_references_are_unique_and_there_is_one_independent_variable() {
         .map(|v| v.name.as_str())
         .collect();
     assert_eq!(independent, ["time"]);
+}
+
+#[test]
+fn time_is_in_seconds_and_every_unit_is_defined() {
+    let description = Document::parse(XML_OF_FMI3).unwrap();
+    let with = |name| {
+        description
+            .descendants()
+            .filter(move |n| n.has_tag_name(name))
+    };
+    let defined: BTreeSet<&str> = with("Unit").filter_map(|n| n.attribute("name")).collect();
+    let units = with("Float64").map(|n| (n.attribute("name"), n.attribute("unit")));
+    for (name, unit) in units.clone() {
+        assert!(unit.is_some_and(|unit| defined.contains(unit)), "{name:?}");
+    }
+    assert!(units.clone().any(|v| v == (Some("time"), Some("s"))));
 }
 
 #[test]
@@ -96,6 +150,12 @@ fn terminals_name_variables_that_exist_each_member_once() {
             .filter(|node| node.has_tag_name(tag))
             .filter_map(|node| node.attribute("name"))
             .collect();
+        let hub = terminals
+            .descendants()
+            .find(|n| n.attribute("name") == Some("hub"));
+        // No variable of a Frame of Modelica: these have other signs and more members.
+        let description = hub.unwrap().attribute("description").unwrap();
+        assert!(description.contains("of the rotor on the hub") && !description.contains("Frame"));
         let mut count = 0;
         for terminal in terminals
             .descendants()

@@ -125,6 +125,85 @@ fn a_state_with_a_held_value_keeps_it_until_the_event() {
     assert!(other.choice("flowState") > 1);
 }
 
+/// A descent into the vortex ring.
+fn descending(instance: &Instance3) {
+    instance.ok(instance.set_floats(&["velocity"], &[0.0, 0.0, -5.0]));
+}
+
+/// Makes another instance continue from the state of one.
+fn continued(from: &Instance3, other: Instance3) -> Instance3 {
+    other.ok(other.continue_from(&from.serialized()));
+    other
+}
+
+fn fresh(event_mode: bool) -> Instance3 {
+    let creation = Creation3 {
+        event_mode,
+        ..Creation3::default()
+    };
+    creation.make().unwrap()
+}
+
+#[test]
+fn a_fresh_instance_that_continues_from_a_step_keeps_the_value_until_the_event() {
+    let instance = continued(&made(true, false), fresh(true));
+    descending(&instance);
+    assert!(instance.step(0.0, 0.01).needs_event);
+    assert_eq!(instance.choice("flowState"), 1);
+}
+
+#[test]
+fn a_stepping_instance_that_continues_from_event_mode_gives_the_new_value_there() {
+    let saved = fresh(true);
+    saved.initialize();
+    let instance = continued(&saved, made(true, false));
+    descending(&instance);
+    instance.update_discrete_states();
+    assert_eq!(instance.choice("flowState"), 2);
+}
+
+#[test]
+fn a_stepping_instance_that_continues_before_the_initialization_starts_with_the_right_value() {
+    for begins in [false, true] {
+        let saved = fresh(true);
+        if begins {
+            saved.begin_initialization();
+        }
+        let instance = continued(&saved, made(true, false));
+        descending(&instance);
+        if !begins {
+            instance.begin_initialization();
+        }
+        instance.exit_initialization();
+        assert_eq!(instance.choice("flowState"), 2);
+    }
+}
+
+/// The rotor has nothing to integrate, so that a step computes no new flow state.
+#[test]
+fn an_instance_without_event_mode_that_continues_from_a_held_value_shows_the_present_one() {
+    let saved = fresh(true);
+    saved.initialize();
+    saved.enter_step_mode();
+    descending(&saved);
+    assert!(saved.step(0.0, 0.01).needs_event);
+    let instance = continued(&saved, fresh(false));
+    instance.step(0.01, 0.01);
+    assert_eq!(instance.choice("flowState"), 2);
+}
+
+#[test]
+fn an_instance_without_event_mode_refuses_a_state_that_was_saved_there() {
+    let saved = fresh(true);
+    saved.initialize();
+    let instance = made(false, false);
+    let before = instance.serialized();
+    let message = instance.refused(instance.continue_from(&saved.serialized()));
+    assert!(message.contains("eventModeUsed = true"), "{message}");
+    assert_eq!(instance.serialized(), before);
+    instance.step(0.0, 0.01);
+}
+
 #[test]
 fn model_exchange_asks_for_an_event_after_a_step_and_gives_the_new_value_in_event_mode() {
     let instance = Instance3::for_model_exchange();

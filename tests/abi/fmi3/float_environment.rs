@@ -50,6 +50,17 @@ fn fly(host: &Host) -> Vec<u64> {
         rotor.ok(status);
         stepped
     });
+    // An answer on which a comparison would trap.
+    let ask: OnUpdate = Box::new(|_, update| {
+        let signalling = f64::from_bits(0x7ff0_0000_0000_0001);
+        update.may_read.then_some(signalling)
+    });
+    let time = stepped.time;
+    host.call("fmi3DoStep", || {
+        let (status, stepped) = rotor.step_with(time, 0.1, Some(ask));
+        rotor.ok(status);
+        assert!(stepped.is_early);
+    });
     let mut seen = host.call("fmi3GetFloat64", || bits(&rotor.all_floats()));
     seen.push(stepped.time.to_bits());
     seen

@@ -1,8 +1,8 @@
 //! Inputs that the importer sets within a step, and outputs that it reads there.
 
 use crate::support::{
-    Instance, Instance3, c,
-    instance3::{Creation3, OnUpdate, Update},
+    Fmu, Instance, Instance3, c,
+    instance3::{Creation3, OnUpdate, Update, variable},
 };
 use std::{cell::RefCell, rc::Rc};
 
@@ -182,10 +182,11 @@ fn the_importer_ends_a_step_early_at_the_time_that_it_names() {
 fn a_step_that_fails_half_way_leaves_everything_as_it_was() {
     let instance = made(&["collective"], false);
     // Enough work for a few parts only.
-    let budget = crate::support::instance3::variable("numerics.budget").reference;
+    let budget = variable("numerics.budget").reference;
     let set = instance.functions.fmi3SetInt32;
     // SAFETY: the instance lives.
     instance.ok(unsafe { set(instance.pointer, &budget, 1, &3000, 1) });
+    instance.set("collective", 0.14);
     dynamic(&instance);
     // The start has used its budget up, which is a warning.
     instance.take_log();
@@ -227,6 +228,18 @@ fn nothing_but_the_named_variables_is_accessible_and_only_as_the_call_says() {
             let (status, _) = instance.get_floats(&["torque"], 1);
             let message = instance.refused(status);
             assert!(message.contains("torque is not among"), "{message}");
+            assert!(message.contains("name it there"), "{message}");
+            for name in [
+                "time",
+                "geometry.radius",
+                "station.mach",
+                "state.rotorSpeed",
+            ] {
+                let (status, _) = instance.get_floats(&[name], variable(name).count);
+                let message = instance.refused(status);
+                let expected = format!("{name} cannot be accessed during a step");
+                assert!(message.contains(&expected), "{message}");
+            }
         } else {
             assert_eq!(set, c::OK);
             assert!(instance.refused(status).contains("outputs may be read"));
@@ -269,4 +282,52 @@ fn a_callback_without_variables_changes_no_number() {
         assert_eq!(stepped, without.step(time, 0.01));
         assert_eq!(with.all_floats(), without.all_floats());
     }
+}
+
+/// However many steps of the integration fit into a step.
+#[test]
+fn a_long_step_asks_for_its_inputs_a_thousand_times_at_most() {
+    let instance = made(&["collective"], false);
+    let (f, p) = (instance.functions, instance.pointer);
+    // The cheapest rotor.
+    let references = ["numerics.elements", "numerics.budget"].map(|n| variable(n).reference);
+    let (r, values) = (references.as_ptr(), [1, i32::MAX]);
+    // SAFETY: the instance lives; the pointers are valid for two elements.
+    instance.ok(unsafe { (f.fmi3SetInt32)(p, r, 2, values.as_ptr(), 2) });
+    let step = instance.float("numerics.azimuthStep");
+    let speed = instance.float("rpm") * core::f64::consts::PI / 30.0;
+    let duration = 1e4 * step / speed;
+    dynamic(&instance);
+    let count = Rc::new(RefCell::new(0));
+    let calls = Rc::clone(&count);
+    let (status, stepped) = instance.step_with(
+        0.0,
+        duration,
+        Some(Box::new(move |_, _| {
+            *calls.borrow_mut() += 1;
+            None
+        })),
+    );
+    instance.ok(status);
+    assert_eq!(stepped.time, duration);
+    let pairs = *count.borrow() / 2;
+    assert!((900..=1001).contains(&pairs), "{pairs}");
+}
+
+/// FMI 2.0 would free it in the middle of its own step.
+#[test]
+fn a_function_of_fmi_2_cannot_free_an_instance_that_makes_a_step() {
+    let instance = made(&["collective"], false);
+    dynamic(&instance);
+    let free: OnUpdate = Box::new(|instance, _| {
+        // SAFETY: refused for an instance of the other version.
+        unsafe { (Fmu::shared().functions.fmi2FreeInstance)(instance.pointer) };
+        let log = instance.take_log();
+        assert_eq!(log.len(), 1);
+        assert!(log[0].message.contains("belongs to FMI 2.0"), "{log:?}");
+        None
+    });
+    let (status, _) = instance.step_with(0.0, 0.01, Some(free));
+    instance.ok(status);
+    instance.step(0.01, 0.01);
 }

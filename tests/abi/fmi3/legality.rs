@@ -5,118 +5,114 @@ use crate::support::{
     Fmu, Instance3,
     c::{self, Status},
     c3::{self, Functions},
-    instance3::{Creation3, OnUpdate, Update, variable},
+    instance3::{Creation3, Kind, OnUpdate, Update, variable},
 };
 use helicopter_rotor::block::variables::STATES as CONTINUOUS;
 use std::{cell::RefCell, ptr, rc::Rc};
 
 /// The columns of the table: the states of Co-Simulation, then those of Model Exchange.
-const STATES: [&str; 16] = [
+const STATES: [&str; 12] = [
     "instantiated",
-    "Configuration Mode",
     "Initialization Mode",
     "Event Mode",
     "Step Mode",
-    "Reconfiguration Mode",
     "Intermediate Update Mode where inputs are asked for",
     "Intermediate Update Mode where outputs may be read",
     "terminated",
     "instantiated",
-    "Configuration Mode",
     "Initialization Mode",
     "Event Mode",
     "Continuous-Time Mode",
-    "Reconfiguration Mode",
     "terminated",
 ];
 
 /// The first column of Model Exchange.
-const MODEL_EXCHANGE: usize = 9;
-const INTERMEDIATE: [usize; 2] = [6, 7];
+const MODEL_EXCHANGE: usize = 7;
+const INTERMEDIATE: [usize; 2] = [4, 5];
 
 /// One letter for each state, in the order of `STATES`:
 /// `x` legal; `-` illegal; `o` legal, but not offered by this FMU; `l` not in the standard's list
 /// and accepted nevertheless, as `src/fmi3/legality.rs` says; `M` a function of Model Exchange, `C`
-/// one of Co-Simulation, `S` one of Scheduled Execution.
+/// one of Co-Simulation, `S` one of Scheduled Execution, `P` one for structural parameters.
 ///
 /// The functions that make instances do not depend on the state of this one. During an intermediate
 /// update this FMU is stricter than the standard.
 const TABLE: &str = "
-    fmi3GetVersion                      xxxxxxxxx xxxxxxx
-    fmi3SetDebugLogging                 xxxxxxxxx xxxxxxx
-    fmi3InstantiateModelExchange        xxxxxxxxx xxxxxxx
-    fmi3InstantiateCoSimulation         xxxxxxxxx xxxxxxx
-    fmi3InstantiateScheduledExecution   xxxxxxxxx xxxxxxx
-    fmi3FreeInstance                    xxxxxx--x xxxxxxx
-    fmi3EnterInitializationMode         x-------- x------
-    fmi3ExitInitializationMode          --x------ --x----
-    fmi3EnterEventMode                  ----x---- ----x--
-    fmi3Terminate                       ---xxx--- ---xxx-
-    fmi3Reset                           xxxxxx--x xxxxxxx
-    fmi3GetFloat32                      o-ooo---o o-ooo-o
-    fmi3GetFloat64                      x-xxx--xx x-xxx-x
-    fmi3GetInt8                         o-ooo---o o-ooo-o
-    fmi3GetUInt8                        o-ooo---o o-ooo-o
-    fmi3GetInt16                        o-ooo---o o-ooo-o
-    fmi3GetUInt16                       o-ooo---o o-ooo-o
-    fmi3GetInt32                        x-xxx---x x-xxx-x
-    fmi3GetUInt32                       o-ooo---o o-ooo-o
-    fmi3GetInt64                        x-xxx---x x-xxx-x
-    fmi3GetUInt64                       o-ooo---o o-ooo-o
-    fmi3GetBoolean                      x-xxx---x x-xxx-x
-    fmi3GetString                       x-xxx---x x-xxx-x
-    fmi3GetBinary                       o-ooo---o o-ooo-o
-    fmi3GetClock                        ---o----- ---o---
-    fmi3SetFloat32                      oooooo--- oooooo-
-    fmi3SetFloat64                      xlxxxlx-- xlxxxl-
-    fmi3SetInt8                         oooooo--- oooo-o-
-    fmi3SetUInt8                        oooooo--- oooo-o-
-    fmi3SetInt16                        oooooo--- oooo-o-
-    fmi3SetUInt16                       oooooo--- oooo-o-
-    fmi3SetInt32                        xlxxxl--- xlxx-l-
-    fmi3SetUInt32                       oooooo--- oooo-o-
-    fmi3SetInt64                        xlxxxl--- xlxx-l-
-    fmi3SetUInt64                       oooooo--- oooo-o-
-    fmi3SetBoolean                      xlxxxl--- xlxx-l-
-    fmi3SetString                       xlxxxl--- xlxx-l-
-    fmi3SetBinary                       oooooo--- oooo-o-
-    fmi3SetClock                        ---o----- ---o---
-    fmi3GetNumberOfVariableDependencies xxxxxx--x xxxxxxx
-    fmi3GetVariableDependencies         xxxxxx--x xxxxxxx
-    fmi3GetFMUState                     xxxxxx--x xxxxxxx
-    fmi3SetFMUState                     xxxxxx--x xxxxxxx
-    fmi3FreeFMUState                    xxxxxx--x xxxxxxx
-    fmi3SerializedFMUStateSize          xxxxxx--x xxxxxxx
-    fmi3SerializeFMUState               xxxxxx--x xxxxxxx
-    fmi3DeserializeFMUState             xxxxxx--x xxxxxxx
-    fmi3GetDirectionalDerivative        --xxx---x --xxx-x
-    fmi3GetAdjointDerivative            --xxx---x --xxx-x
-    fmi3EnterConfigurationMode          l---l---- l--l---
-    fmi3ExitConfigurationMode           -l---l--- -l---l-
-    fmi3GetIntervalDecimal              --oo----- --oo---
-    fmi3GetIntervalFraction             --oo----- --oo---
-    fmi3GetShiftDecimal                 --o------ --o----
-    fmi3GetShiftFraction                --o------ --o----
-    fmi3SetIntervalDecimal              --oo----- --oo---
-    fmi3SetIntervalFraction             --oo----- --oo---
-    fmi3SetShiftDecimal                 --o------ --o----
-    fmi3SetShiftFraction                --o------ --o----
-    fmi3EvaluateDiscreteStates          ---o----- ---o---
-    fmi3UpdateDiscreteStates            ---x----- ---x---
-    fmi3EnterContinuousTimeMode         MMMMMMMMM ---x---
-    fmi3CompletedIntegratorStep         MMMMMMMMM ----x--
-    fmi3SetTime                         MMMMMMMMM ---lx--
-    fmi3SetContinuousStates             MMMMMMMMM ----x--
-    fmi3GetContinuousStateDerivatives   MMMMMMMMM --xxx-x
-    fmi3GetEventIndicators              MMMMMMMMM --xxx-x
-    fmi3GetContinuousStates             MMMMMMMMM --xxx-x
-    fmi3GetNominalsOfContinuousStates   MMMMMMMMM --xxxxx
-    fmi3GetNumberOfEventIndicators      MMMMMMMMM xllxlll
-    fmi3GetNumberOfContinuousStates     MMMMMMMMM xllxlll
-    fmi3EnterStepMode                   ---x----- CCCCCCC
-    fmi3GetOutputDerivatives            ----x--xx CCCCCCC
-    fmi3DoStep                          ----x---- CCCCCCC
-    fmi3ActivateModelPartition          SSSSSSSSS SSSSSSS
+    fmi3GetVersion                      xxxxxxx xxxxx
+    fmi3SetDebugLogging                 xxxxxxx xxxxx
+    fmi3InstantiateModelExchange        xxxxxxx xxxxx
+    fmi3InstantiateCoSimulation         xxxxxxx xxxxx
+    fmi3InstantiateScheduledExecution   xxxxxxx xxxxx
+    fmi3FreeInstance                    xxxx--x xxxxx
+    fmi3EnterInitializationMode         x------ x----
+    fmi3ExitInitializationMode          -x----- -x---
+    fmi3EnterEventMode                  ---x--- ---x-
+    fmi3Terminate                       --xx--- --xx-
+    fmi3Reset                           xxxx--x xxxxx
+    fmi3GetFloat32                      oooo--o ooooo
+    fmi3GetFloat64                      xxxx-xx xxxxx
+    fmi3GetInt8                         oooo--o ooooo
+    fmi3GetUInt8                        oooo--o ooooo
+    fmi3GetInt16                        oooo--o ooooo
+    fmi3GetUInt16                       oooo--o ooooo
+    fmi3GetInt32                        xxxx--x xxxxx
+    fmi3GetUInt32                       oooo--o ooooo
+    fmi3GetInt64                        xxxx--x xxxxx
+    fmi3GetUInt64                       oooo--o ooooo
+    fmi3GetBoolean                      xxxx--x xxxxx
+    fmi3GetString                       xxxx--x xxxxx
+    fmi3GetBinary                       oooo--o ooooo
+    fmi3GetClock                        --o---- --o--
+    fmi3SetFloat32                      oooo--- oooo-
+    fmi3SetFloat64                      xxxxx-- xxxx-
+    fmi3SetInt8                         oooo--- ooo--
+    fmi3SetUInt8                        oooo--- ooo--
+    fmi3SetInt16                        oooo--- ooo--
+    fmi3SetUInt16                       oooo--- ooo--
+    fmi3SetInt32                        xxxx--- xxx--
+    fmi3SetUInt32                       oooo--- ooo--
+    fmi3SetInt64                        xxxx--- xxx--
+    fmi3SetUInt64                       oooo--- ooo--
+    fmi3SetBoolean                      xxxx--- xxx--
+    fmi3SetString                       xxxx--- xxx--
+    fmi3SetBinary                       oooo--- ooo--
+    fmi3SetClock                        --o---- --o--
+    fmi3GetNumberOfVariableDependencies xxxx--x xxxxx
+    fmi3GetVariableDependencies         xxxx--x xxxxx
+    fmi3GetFMUState                     xxxx--x xxxxx
+    fmi3SetFMUState                     xxxx--x xxxxx
+    fmi3FreeFMUState                    xxxx--x xxxxx
+    fmi3SerializedFMUStateSize          xxxx--x xxxxx
+    fmi3SerializeFMUState               xxxx--x xxxxx
+    fmi3DeserializeFMUState             xxxx--x xxxxx
+    fmi3GetDirectionalDerivative        -xxx--x -xxxx
+    fmi3GetAdjointDerivative            -xxx--x -xxxx
+    fmi3EnterConfigurationMode          PPPPPPP PPPPP
+    fmi3ExitConfigurationMode           PPPPPPP PPPPP
+    fmi3GetIntervalDecimal              -oo---- -oo--
+    fmi3GetIntervalFraction             -oo---- -oo--
+    fmi3GetShiftDecimal                 -o----- -o---
+    fmi3GetShiftFraction                -o----- -o---
+    fmi3SetIntervalDecimal              -oo---- -oo--
+    fmi3SetIntervalFraction             -oo---- -oo--
+    fmi3SetShiftDecimal                 -o----- -o---
+    fmi3SetShiftFraction                -o----- -o---
+    fmi3EvaluateDiscreteStates          --o---- --o--
+    fmi3UpdateDiscreteStates            --x---- --x--
+    fmi3EnterContinuousTimeMode         MMMMMMM --x--
+    fmi3CompletedIntegratorStep         MMMMMMM ---x-
+    fmi3SetTime                         MMMMMMM --lx-
+    fmi3SetContinuousStates             MMMMMMM ---x-
+    fmi3GetContinuousStateDerivatives   MMMMMMM -xxxx
+    fmi3GetEventIndicators              MMMMMMM -xxxx
+    fmi3GetContinuousStates             MMMMMMM -xxxx
+    fmi3GetNominalsOfContinuousStates   MMMMMMM -xxxx
+    fmi3GetNumberOfEventIndicators      MMMMMMM xlxll
+    fmi3GetNumberOfContinuousStates     MMMMMMM xlxll
+    fmi3EnterStepMode                   --x---- CCCCC
+    fmi3GetOutputDerivatives            ---x-xx CCCCC
+    fmi3DoStep                          ---x--- CCCCC
+    fmi3ActivateModelPartition          SSSSSSS SSSSS
 ";
 
 #[test]
@@ -149,7 +145,7 @@ fn every_function_in_every_state_answers_as_the_standard_says() {
             }
             let before = instance.serialized();
             check(&instance);
-            if ['-', 'o', 'M', 'C', 'S'].contains(&letter) {
+            if !['x', 'l'].contains(&letter) {
                 assert_eq!(
                     instance.serialized(),
                     before,
@@ -170,7 +166,7 @@ fn answers(instance: &Instance3, name: &str, state: usize, letter: char) {
         "Model Exchange"
     };
     let cell = format!("{name} in {} of {interface}", STATES[state]);
-    let saved = Saved::new(state >= MODEL_EXCHANGE);
+    let saved = Saved::new(kind_of(state));
     let status = call(name, instance.functions, instance.pointer, Some(&saved));
     if ['x', 'l'].contains(&letter) {
         assert_eq!((status, instance.take_log()), (c::OK, vec![]), "{cell}");
@@ -187,6 +183,7 @@ fn answers(instance: &Instance3, name: &str, state: usize, letter: char) {
         'M' => "belongs to Model Exchange",
         'C' => "belongs to Co-Simulation",
         'S' => "Scheduled Execution",
+        'P' => "structural parameters",
         _ => "",
     };
     assert!(message.contains(reason), "{cell}: {message}");
@@ -205,11 +202,19 @@ fn without_an_instance_every_function_refuses_and_none_crashes() {
     }
 }
 
+fn kind_of(state: usize) -> Kind {
+    if state < MODEL_EXCHANGE {
+        Kind::CoSimulation
+    } else {
+        Kind::ModelExchange
+    }
+}
+
 /// A fresh instance in one of `STATES`, with a message for nothing but errors.
 fn in_state(state: usize) -> Instance3 {
-    let is_model_exchange = state >= MODEL_EXCHANGE;
+    let kind = kind_of(state);
     let creation = Creation3 {
-        is_model_exchange,
+        kind,
         event_mode: true,
         ..Creation3::default()
     };
@@ -220,33 +225,24 @@ fn in_state(state: usize) -> Instance3 {
         let events = c"logEvents".as_ptr();
         instance.ok((f.fmi3SetDebugLogging)(instance.pointer, 0, 1, &events));
     }
-    let place = if is_model_exchange {
+    let place = match kind {
         // The same numbers as in Co-Simulation, without those of intermediate updates.
-        [0, 1, 2, 3, 4, 5, 8][state - MODEL_EXCHANGE]
-    } else {
-        state
+        Kind::ModelExchange => [0, 1, 2, 3, 6][state - MODEL_EXCHANGE],
+        _ => state,
     };
-    // SAFETY: the instance lives.
-    let configure = || instance.ok(unsafe { (f.fmi3EnterConfigurationMode)(instance.pointer) });
-    if place == 1 {
-        configure();
-    }
-    if place >= 2 {
+    if place >= 1 {
         instance.begin_initialization();
     }
-    if place >= 3 {
+    if place >= 2 {
         instance.exit_initialization();
     }
-    if place >= 4 && !is_model_exchange {
-        instance.enter_step_mode();
+    if place >= 3 {
+        match kind {
+            Kind::ModelExchange => instance.enter_continuous_time(),
+            _ => instance.enter_step_mode(),
+        }
     }
-    if [4, 8].contains(&place) && is_model_exchange {
-        instance.enter_continuous_time();
-    }
-    if place == 5 {
-        configure();
-    }
-    if place == 8 {
+    if place == 6 {
         // SAFETY: the instance lives.
         instance.ok(unsafe { (f.fmi3Terminate)(instance.pointer) });
     }
@@ -285,9 +281,9 @@ struct Saved {
 }
 
 impl Saved {
-    fn new(is_model_exchange: bool) -> Self {
+    fn new(kind: Kind) -> Self {
         let creation = Creation3 {
-            is_model_exchange,
+            kind,
             ..Creation3::default()
         };
         let donor = creation.make().unwrap();
@@ -343,20 +339,11 @@ fn call(name: &str, f: &Functions, p: c3::Instance, saved: Option<&Saved>) -> St
                 c::OK
             }
             "fmi3InstantiateScheduledExecution" => {
-                let (none, make) = (ptr::null(), f.fmi3InstantiateScheduledExecution);
-                let made = make(
-                    none,
-                    none,
-                    none,
-                    0,
-                    0,
-                    ptr::null_mut(),
-                    None,
-                    None,
-                    None,
-                    None,
-                );
-                Status::from(!made.is_null())
+                let creation = Creation3 {
+                    kind: Kind::ScheduledExecution,
+                    ..Creation3::default()
+                };
+                creation.make().is_ok().into()
             }
             "fmi3FreeInstance" => {
                 (f.fmi3FreeInstance)(p);

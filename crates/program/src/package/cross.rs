@@ -1,6 +1,6 @@
 //! Libraries for other platforms, for other machines of this one, and for browsers: the targets,
-//! linkers and options with which cargo builds them. The same source and compiler give the same bytes in every
-//! folder.
+//! linkers and options with which cargo builds them. The same source and compiler give the same
+//! bytes in every folder.
 
 use super::{
     binary::{self, Binary},

@@ -76,15 +76,17 @@ fn model_description() -> PathBuf {
 /// Writes the general .fmu of FMI 2.0 with these libraries in it. After an error there is no
 /// incomplete `file`.
 pub fn write(file: &Path, contents: &Contents) -> Result<(), Failure> {
-    write_version(file, contents, None, Version::Two)
+    draft(file, contents, None, Version::Two)?.publish()
 }
 
-/// Writes the .fmu of FMI 2.0, and then that of FMI 3.0 beside it, for one rotor, if there is one.
-/// Returns the path of the latter.
+/// Writes the .fmu of FMI 2.0 and that of FMI 3.0 beside it, for one rotor, if there is one.
+/// Neither is replaced before both are complete. Returns the path of the latter.
 pub fn write_both(file: &Path, contents: &Contents, own: Option<&Own>) -> Result<PathBuf, Failure> {
     let other = beside(file);
-    write_version(file, contents, own, Version::Two)?;
-    write_version(&other, contents, own, Version::Three)?;
+    let two = draft(file, contents, own, Version::Two)?;
+    let three = draft(&other, contents, own, Version::Three)?;
+    two.publish()?;
+    three.publish()?;
     Ok(other)
 }
 
@@ -104,17 +106,18 @@ pub fn resources() -> PathBuf {
     model_description().join("resources")
 }
 
-fn write_version(
+/// The complete .fmu of a version, which is not in its place yet.
+fn draft(
     file: &Path,
     contents: &Contents,
     own: Option<&Own>,
     version: Version,
-) -> Result<(), Failure> {
+) -> Result<Draft, Failure> {
     let draft = Draft::new(place_of_file(file)?)?;
     let out =
         File::create(draft.path()).map_err(failed(format!("cannot write {}", file.display())))?;
     archive(out, contents, own, version)?;
-    draft.publish()
+    Ok(draft)
 }
 
 fn archive(
@@ -244,8 +247,9 @@ fn xml(contents: &Contents, version: Version) -> Result<String, Failure> {
     Ok(xml)
 }
 
-/// The date and time in SOURCE_DATE_EPOCH, in which build tools pass a number of seconds since 1970,
-/// so that the same source gives the same file. Without it, the file does not say when it was made.
+/// The date and time in SOURCE_DATE_EPOCH, in which build tools pass a number of seconds since
+/// 1970, so that the same source gives the same file. Without it, the file does not say when it was
+/// made.
 fn date() -> Result<Option<String>, Failure> {
     const NAME: &str = "SOURCE_DATE_EPOCH";
     /// The last second of the year 9999.

@@ -187,7 +187,9 @@ fn what_a_killed_run_has_left_is_removed_and_what_another_run_is_making_is_not()
     };
     let left_over = || {
         let mut drafts = drafts(&folder);
-        drafts.retain(|draft| *draft != own);
+        let is_ours = |name: &str| name.starts_with(".rotor.fmu.");
+        drafts
+            .retain(|draft| *draft != own && is_ours(draft.file_name().unwrap().to_str().unwrap()));
         drafts
     };
 
@@ -203,8 +205,7 @@ fn what_a_killed_run_has_left_is_removed_and_what_another_run_is_making_is_not()
     assert_eq!(left_over(), first);
     drop(lock);
     succeed(&mut package(&out));
-    assert_eq!(left_over(), [] as [PathBuf; 0]);
-    assert!(own.is_dir());
+    assert_eq!(drafts(&folder), [own]);
 }
 
 #[test]
@@ -217,6 +218,19 @@ fn an_error_in_the_middle_leaves_the_older_file_and_nothing_else() {
     fail(command.args(["package", "--out"]).arg(&out));
     assert_eq!(fs::read_to_string(&out).unwrap(), "old");
     assert_eq!(fs::read_dir(&folder).unwrap().count(), 1);
+}
+
+/// The file of FMI 3.0 cannot be written.
+#[test]
+fn neither_file_is_replaced_if_the_other_cannot_be_written() {
+    let folder = folder("both");
+    let out = folder.join("rotor.fmu");
+    fs::write(&out, "old").unwrap();
+    fs::create_dir(folder.join("rotor-fmi3.fmu")).unwrap();
+    let message = fail(&mut package(&out));
+    assert!(message.contains("rotor-fmi3.fmu is a folder"), "{message}");
+    assert_eq!(fs::read_to_string(&out).unwrap(), "old");
+    assert_eq!(drafts(&folder), [] as [PathBuf; 0]);
 }
 
 #[test]

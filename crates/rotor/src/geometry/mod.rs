@@ -60,8 +60,8 @@ pub struct Geometry {
     pub radius: f64,
     /// r/R at which the pitch equals the collective, 0 to 1; not used with `has_blade_angles`.
     pub pitch_reference_radius: f64,
-    /// Whether the twist of the stations is their pitch at a collective of 0, so that no radius is a
-    /// reference.
+    /// Whether the twist of the stations is their pitch at a collective of 0, so that no radius is
+    /// a reference.
     pub has_blade_angles: bool,
     /// Direction of rotation, seen from above.
     pub rotation: Rotation,

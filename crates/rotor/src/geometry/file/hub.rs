@@ -101,8 +101,8 @@ impl FileFlapping {
     }
 
     /// The spring at the hinge of a hingeless rotor that gives its blades their flapping frequency
-    /// nu, per revolution of the nominal speed Omega: nu^2 = 1 + 3/2 e/(1 - e) + k/(I Omega^2), with
-    /// the hinge offset e in radii (Johnson 1980, "Helicopter Theory", eq. 5-145).
+    /// nu, per revolution of the nominal speed Omega: nu^2 = 1 + 3/2 e/(1 - e) + k/(I Omega^2),
+    /// with the hinge offset e in radii (Johnson 1980, "Helicopter Theory", eq. 5-145).
     fn equivalent_spring(
         &self,
         geometry: &Geometry,
