@@ -132,9 +132,9 @@ impl<S: Scalar> DescentLaw<S> {
             // the axis.
             Descent::Johnson if (climb * induced).value() < 0.0 => {
                 if edgewise.value() == 0.0 {
-                    15
+                    10
                 } else {
-                    70
+                    40
                 }
             }
             Descent::Johnson => 0,
