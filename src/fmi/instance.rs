@@ -114,12 +114,10 @@ impl Instance {
 pub unsafe fn call(
     component: Component,
     function: &'static Function,
-    body: impl FnOnce(&mut Instance) -> Outcome,
+    mut body: impl FnMut(&mut Instance) -> Outcome,
 ) -> Status {
-    let mut body = Some(body);
-    let mut once = |instance: &mut Instance| body.take().map_or(Ok(()), |body| body(instance));
     // SAFETY: passed on from the caller.
-    unsafe { run(component, function, &mut once) }
+    unsafe { run(component, function, &mut body) }
 }
 
 /// As `call`. The frame is in the library once, and not once for each function.

@@ -112,7 +112,7 @@ unsafe fn status<T>(
     c: fmi2Component,
     function: &'static Function,
     value: *mut T,
-    answer: impl FnOnce(&Instance) -> Option<T>,
+    answer: impl Fn(&Instance) -> Option<T>,
 ) -> fmi2Status {
     let body = |instance: &mut Instance| -> Outcome {
         let answer = answer(instance).ok_or_else(|| {
