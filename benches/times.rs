@@ -5,8 +5,8 @@
 
 mod flights;
 
-use criterion::{BatchSize, Criterion, criterion_group, criterion_main};
-use flights::{AZIMUTH_STEP, Begin, Flight, blades::Blades};
+use criterion::{BatchSize, Criterion, Throughput, criterion_group, criterion_main};
+use flights::{AZIMUTH_STEP, Begin, Flight, REAL_TIME_RPM, blades::Blades};
 
 /// Steps with the collective that moves.
 fn steps(criterion: &mut Criterion) {
@@ -57,6 +57,24 @@ fn steps(criterion: &mut Criterion) {
     }
 }
 
+/// How much faster than real time a flapping rotor is at 430 rev/min, in steps of 3 deg. Elements are
+/// simulated microseconds: Melem/s is the factor.
+fn real_time(criterion: &mut Criterion) {
+    let duration = 3.0 / (6.0 * REAL_TIME_RPM);
+    let mut group = criterion.benchmark_group("real-time factor in Melem per s");
+    group.throughput(Throughput::Elements((duration * 1e6).round() as u64));
+    for inflow in [
+        "pittPetersDynamic",
+        "petersHe",
+        "uniform",
+        "annulus",
+        "finiteBlades",
+    ] {
+        let mut flight = Flight::under_way(Begin::flapping(inflow).at(REAL_TIME_RPM));
+        group.bench_function(inflow, |bencher| bencher.iter(|| flight.exchange(duration)));
+    }
+}
+
 /// One evaluation of 4 x 40 elements.
 fn evaluation(criterion: &mut Criterion) {
     let mut blades = Blades::new();
@@ -100,5 +118,5 @@ fn starts(criterion: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, steps, evaluation, derivatives, starts);
+criterion_group!(benches, steps, real_time, evaluation, derivatives, starts);
 criterion_main!(benches);

@@ -14,20 +14,27 @@ const RPM: f64 = 960.0;
 /// Duration of 3 deg at 960 rev/min, the default step in azimuth, s.
 pub const AZIMUTH_STEP: f64 = 3.0 / (6.0 * RPM);
 
+/// The rotor speed for factors of real time, rev/min.
+#[allow(dead_code)] // counts of instructions need none
+pub const REAL_TIME_RPM: f64 = 430.0;
+
 /// A rotor that flies.
 pub struct Flight {
     component: fmi2Component,
     time: f64,
+    rpm: f64,
     forward: f64,
     is_up: bool,
     inputs: [fmi2ValueReference; 3],
     outputs: [fmi2ValueReference; 6],
 }
 
-/// A flight to begin: parameters as in `settings`, forward speed and climb, m/s.
+/// A flight to begin: parameters as in `settings`, rotor speed, rev/min, forward speed and climb,
+/// m/s.
 #[derive(Clone)]
 pub struct Begin {
     settings: String,
+    rpm: f64,
     forward: f64,
     climb: f64,
 }
@@ -37,6 +44,7 @@ impl Begin {
     pub fn hover(settings: &str) -> Self {
         Self {
             settings: settings.to_owned(),
+            rpm: RPM,
             forward: 0.0,
             climb: 0.0,
         }
@@ -57,6 +65,17 @@ impl Begin {
             ..Self::hover(&format!(
                 "flapping.enabled = true; models.inflow = {inflow}"
             ))
+        }
+    }
+
+    /// The same at another rotor speed and the same advance ratio.
+    #[allow(dead_code)] // counts of instructions need none
+    pub fn at(self, rpm: f64) -> Self {
+        let forward = self.forward * rpm / self.rpm;
+        Self {
+            rpm,
+            forward,
+            ..self
         }
     }
 }
@@ -102,6 +121,7 @@ impl Flight {
             let mut flight = Self {
                 component,
                 time: 0.0,
+                rpm: begin.rpm,
                 forward: begin.forward,
                 is_up: false,
                 inputs: ["collective", "rpm", "velocity[1]"].map(|n| reference(&REALS, n)),
@@ -159,7 +179,7 @@ impl Flight {
 
     /// Sets three inputs: collective, deg; rotor speed; forward speed.
     pub fn set(&mut self, collective: f64) {
-        let values = [black_box(collective).to_radians(), RPM, self.forward];
+        let values = [black_box(collective).to_radians(), self.rpm, self.forward];
         // SAFETY: three references and values.
         ok(unsafe { fmi2SetReal(self.component, self.inputs.as_ptr(), 3, values.as_ptr()) });
     }
