@@ -57,8 +57,8 @@ fn steps(criterion: &mut Criterion) {
     }
 }
 
-/// How much faster than real time a flapping rotor is at 430 rev/min, in steps of 3 deg. Elements are
-/// simulated microseconds: Melem/s is the factor.
+/// How much faster than real time a flapping rotor is at 430 rev/min, in steps of 3 deg. Elements
+/// are simulated microseconds: Melem/s is the factor.
 fn real_time(criterion: &mut Criterion) {
     let duration = 3.0 / (6.0 * REAL_TIME_RPM);
     let mut group = criterion.benchmark_group("real-time factor in Melem per s");

@@ -108,10 +108,11 @@ fn collective_at(block: &mut RotorBlock, thrust: f64) -> f64 {
 }
 
 /// At the thrust in its source each rotor hovers with nearly the pitch at 0.75 R of blade element
-/// theory with uniform inflow, which linear twist does not change: CT = sigma a/2 (theta/3 -
-/// lambda/2), lambda = sqrt(CT/2) (Johnson 1980, "Helicopter Theory", ch. 2). The lift slope a is 5.7
-/// by the rule of Prandtl & Glauert at 0.75 R. For tip loss, for inflow that varies along the blade
-/// and for the section, which the theory does not have, 0.5 deg is allowed.
+/// theory with uniform inflow, which linear twist does not change:
+/// CT = sigma a/2 (theta/3 - lambda/2), lambda = sqrt(CT/2) (Johnson 1980, "Helicopter Theory",
+/// ch. 2). The lift slope a is 5.7 by the rule of Prandtl & Glauert at 0.75 R. For tip loss, for
+/// inflow that varies along the blade and for the section, which the theory does not have, 0.5 deg
+/// is allowed.
 #[test]
 fn the_rotors_hover_at_their_weight_with_the_pitch_of_blade_element_theory() {
     // Pitch at 0.75 R less the collective, deg: that of the Bo 105 is measured at 0.7228 R.

@@ -238,8 +238,8 @@ fn helicopter_slope<S: Scalar>(edgewise: S, climb: S, v: S) -> S {
     -v * through / (edgewise * edgewise + through * through + v * through)
 }
 
-/// The root that continues fast descent: the left side is concave up to it. Where it does not exist,
-/// the root that continues hover.
+/// The root that continues fast descent: the left side is concave up to it. Where it does not
+/// exist, the root that continues hover.
 fn windmill<S: Scalar>(edgewise: S, climb: S) -> S {
     let middle = -0.5 * climb.value();
     if middle * libm::hypot(edgewise.value(), middle) < 1.0 {
