@@ -123,8 +123,8 @@ impl<S: Scalar> DescentLaw<S> {
     }
 
     /// How many computations of a section's loads cost as much as one of V', at the flows that
-    /// [`DescentLaw::speed`] takes. Measured, rounded up: up to 7,300 instructions in axial flow
-    /// and 35,000 elsewhere, for 530 of a section in the lanes of every processor.
+    /// [`DescentLaw::speed`] takes. Measured: at most 4,900 instructions in axial flow and 21,500
+    /// elsewhere, for 530 of a section in the lanes of every processor.
     fn work(&self, edgewise: S, climb: S, induced: S) -> u64 {
         match self.model {
             Descent::Momentum | Descent::Measured => 0,
