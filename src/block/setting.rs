@@ -21,11 +21,8 @@ impl RotorBlock {
     ) -> Result<(), ValueError> {
         let is_parameter =
             |reference: RealRef| reference.variable().causality == Causality::Parameter;
-        if names
-            .iter()
-            .flat_map(|name| name.reference())
-            .any(is_parameter)
-        {
+        let mut references = names.iter().flat_map(|name| name.reference());
+        if self.stage == Stage::Configuring && references.any(is_parameter) {
             self.withdraw_file();
         }
         self.values.set_reals(self.stage, names, values)?;

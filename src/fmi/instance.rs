@@ -151,36 +151,32 @@ unsafe fn run(
             Err(Message::Error(internal_error(&*panic)))
         });
 
-    let (status, mut lines) = match outcome {
-        Ok(()) => (Status::Ok, Vec::new()),
-        Err(Message::Warning(text)) => (
-            Status::Warning,
-            vec![(Category::Warning, prefixed(function, &text))],
-        ),
-        Err(Message::Error(text)) => (
-            Status::Error,
-            vec![(Category::Error, prefixed(function, &text))],
-        ),
+    let (status, last) = match outcome {
+        Ok(()) => (Status::Ok, None),
+        Err(Message::Warning(text)) => (Status::Warning, Some((Category::Warning, text))),
+        Err(Message::Error(text)) => (Status::Error, Some((Category::Error, text))),
     };
     // SAFETY: as above; the logger has not been called yet.
     let notes = unsafe { (*instance).block.take_notes() };
+    if notes.is_empty() && last.is_none() {
+        return status;
+    }
+    let last = last.map(|(category, text)| (category, prefixed(function, &text)));
     let notes = notes.into_iter().map(|note| match note {
         Note::Event(text) => (Category::Events, text),
         Note::Warning(text) => (Category::Warning, prefixed(function, &text)),
     });
-    lines.splice(0..0, notes);
-    if !lines.is_empty() {
-        // SAFETY: as above. The copy of the logger is used, not the instance: what the importer's
-        // function does with the instance, freeing it included, harms nothing here.
-        let logger = unsafe { (*instance).logger.clone() };
-        let log = || {
-            for (category, text) in &lines {
-                logger.log(*category, text);
-            }
-        };
-        // A panic in the logger cannot be logged.
-        let _ = catch_unwind(AssertUnwindSafe(log));
-    }
+    let lines: Vec<_> = notes.chain(last).collect();
+    // SAFETY: as above. The copy of the logger is used, not the instance: what the importer's
+    // function does with the instance, freeing it included, harms nothing here.
+    let logger = unsafe { (*instance).logger.clone() };
+    let log = || {
+        for (category, text) in &lines {
+            logger.log(*category, text);
+        }
+    };
+    // A panic in the logger cannot be logged.
+    let _ = catch_unwind(AssertUnwindSafe(log));
     status
 }
 
