@@ -54,6 +54,7 @@ class Controls {
         const { state } = this.page;
         $("rotor").value = state.rotor;
         $("source").textContent = `${ROTORS[state.rotor].title}: ${ROTORS[state.rotor].source}`;
+        $("drag").textContent = `${ROTORS[state.rotor].dragArea}\u00a0m²`;
         $("inflow").value = state.inflow;
         const { description } = this.inflowModels.find((model) => model.name === state.inflow);
         $("inflow-description").textContent = description;
