@@ -51,6 +51,7 @@ class Computer {
         if (this.wanted[0] === "power") {
             const question = this.nextSpeed(values);
             if (question) return this.send("power", question);
+            if (this.curve.length === 0) this.found.power([]);
             this.wanted.shift();
         }
         if (this.wanted.length === 0) {
