@@ -14,7 +14,10 @@ class Controls {
         $("field").addEventListener("change", () => page.showFlight());
         $("reset").addEventListener("click", () => page.begin(page.state.rotor));
         $("play").addEventListener("click", () => page.togglePlay());
-        $("copy-link").addEventListener("click", () => copy($("copy-link"), location.href));
+        $("copy-link").addEventListener("click", () => {
+            // Not the address itself, which the browser may not have let the page change.
+            copy($("copy-link"), `${location.href.split("#")[0]}#${toLink(page.state)}`);
+        });
         $("copy-values").addEventListener("click", () => copy($("copy-values"), page.python()));
         $("controls").addEventListener("submit", (event) => event.preventDefault());
         for (const button of document.querySelectorAll("[data-view]")) {

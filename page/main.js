@@ -54,7 +54,7 @@ class Page {
         try {
             history.replaceState(null, "", `#${toLink(this.state)}`);
         } catch {
-            // Browsers limit how often; the next change says it again.
+            // Browsers limit how often the address may change; the next change writes it.
         }
         this.computer.want(this.state);
     }
