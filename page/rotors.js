@@ -165,7 +165,7 @@ function toLink(state) {
 // What a link says; what is unknown or out of range in it is left out.
 function fromLink(link, inflowModels) {
     const said = new URLSearchParams(link.replace(/^#/, ""));
-    const rotor = said.get("rotor") in ROTORS ? said.get("rotor") : "a109";
+    const rotor = Object.hasOwn(ROTORS, said.get("rotor")) ? said.get("rotor") : "a109";
     const state = startOf(rotor);
     for (const control of CONTROLS) {
         const { min, max } = rangeOf(control, rotor);
@@ -174,7 +174,7 @@ function fromLink(link, inflowModels) {
     }
     state.blades = Math.round(state.blades);
     if (inflowModels.includes(said.get("inflow"))) state.inflow = said.get("inflow");
-    if (said.has("flapping")) state.flapping = said.get("flapping") === "true";
+    if (["true", "false"].includes(said.get("flapping"))) state.flapping = said.get("flapping") === "true";
     return state;
 }
 
