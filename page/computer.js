@@ -83,6 +83,8 @@ class Computer {
     }
 
     answered({ id, job, result, messages, error }) {
+        // Without a rotor nothing more is asked.
+        if (error && job === "load") return this.found.failed(`The rotor cannot be loaded: ${error}`);
         this.isBusy = false;
         const isOld = id !== this.version;
         if (job === "revolution") {
@@ -90,6 +92,7 @@ class Computer {
             // Also if it is old: what is shown follows a slider that moves on.
             this.found.revolution(result, this.asked, error ? [error] : messages);
         }
+        if (error && job !== "revolution" && !isOld) this.found.failed(error);
         if (job === "polar" && !isOld) this.found.polar(result ?? []);
         if (job === "power" && !isOld) {
             if (result?.power !== undefined) {

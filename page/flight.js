@@ -137,8 +137,8 @@ function meanLoads(rotor, values) {
 // What the worker answers to a message. Each answer has the identity of its question.
 let worked; // the rotor of this worker
 function answer({ id, job, module, description, values, flight }) {
-    if (module) worked = new Rotor(module, description);
     try {
+        if (module) worked = new Rotor(module, description);
         const jobs = {
             load: () => true,
             revolution: () => revolution(worked, values),

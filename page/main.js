@@ -12,8 +12,9 @@ class Page {
             { module, description },
             {
                 revolution: (flight, state, messages) => this.foundRevolution(flight, state, messages),
-                polar: (points) => this.results.showPolar(points, this.state, this.flight),
-                power: (points) => this.results.showPower(points, this.state, this.flight),
+                polar: (points) => this.results.showPolar(points, this.state, this.presentFlight()),
+                power: (points) => this.results.showPower(points, this.state, this.presentFlight()),
+                failed: tell,
             },
         );
         this.turned = 0;
@@ -59,17 +60,19 @@ class Page {
         this.computer.want(this.state);
     }
 
+    // Without a flight, because of an error, the numbers of an earlier one are marked as invalid.
     foundRevolution(flight, state, messages) {
-        $("messages").replaceChildren(
-            ...messages.map((message) => {
-                const line = document.createElement("p");
-                line.textContent = message;
-                return line;
-            }),
-        );
+        $("messages").replaceChildren();
+        messages.forEach(tell);
+        document.body.classList.toggle("has-failed", !flight);
         if (!flight) return;
         Object.assign(this, { flight, flightState: state });
         this.showFlight();
+    }
+
+    // None after an error.
+    presentFlight() {
+        return document.body.classList.contains("has-failed") ? undefined : this.flight;
     }
 
     showFlight() {
@@ -115,6 +118,14 @@ class Page {
     }
 }
 
+// Each message stands there once.
+function tell(message) {
+    if ([...$("messages").children].some((line) => line.textContent === message)) return;
+    const line = document.createElement("p");
+    line.textContent = message;
+    $("messages").append(line);
+}
+
 async function load() {
     const data = JSON.parse($("data").textContent);
     const packed = Uint8Array.from(atob(data.library), (letter) => letter.charCodeAt(0));
@@ -125,5 +136,5 @@ async function load() {
 }
 
 load().catch((error) => {
-    $("messages").textContent = `The rotor cannot be loaded: ${error.message}. It needs a browser of 2023 or later.`;
+    tell(`The rotor cannot be loaded: ${error.message}. It needs a browser of 2023 or later.`);
 });
