@@ -12,6 +12,11 @@ class Controls {
         $("inflow").addEventListener("change", () => page.put("inflow", $("inflow").value));
         $("flapping").addEventListener("change", () => page.put("flapping", $("flapping").checked));
         $("field").addEventListener("change", () => page.showFlight());
+        for (const list of ["rotor", "inflow", "field"]) leaveAfterMouse($(list));
+        document.addEventListener("click", ({ target, detail }) => {
+            // A click by the mouse, not by a key.
+            if (detail > 0) target.closest("button")?.blur();
+        });
         $("reset").addEventListener("click", () => page.begin(page.state.rotor));
         $("play").addEventListener("click", () => page.togglePlay());
         $("copy-link").addEventListener("click", () => {
@@ -67,7 +72,6 @@ class Controls {
             for (const input of [$(control.name), $(`${control.name}-number`)]) {
                 if (input === used) continue;
                 Object.assign(input, rangeOf(control, state.rotor));
-                if (input.type === "number") input.step = "any";
                 input.value = state[control.name];
             }
         }
@@ -78,7 +82,7 @@ class Controls {
         const { page } = this;
         if (event.ctrlKey || event.metaKey || event.altKey) return;
         if (target.matches("select, input[type=number]")) return;
-        if (key === " " && !target.matches("button, input")) {
+        if (key === " " && !target.matches("button, select, summary, input:not([type=range])")) {
             event.preventDefault();
             page.togglePlay();
         }
@@ -94,6 +98,14 @@ class Controls {
             page.scene.turn(...turn);
         }
     }
+}
+
+// A list in which the mouse has chosen gives the focus back, so that the page's keys work. One that keys move keeps it.
+function leaveAfterMouse(list) {
+    let isByMouse = false;
+    list.addEventListener("pointerdown", () => (isByMouse = true));
+    list.addEventListener("keydown", () => (isByMouse = false));
+    list.addEventListener("change", () => isByMouse && list.blur());
 }
 
 async function copy(button, text) {
