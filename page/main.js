@@ -92,7 +92,6 @@ class Page {
 
     showPlay() {
         $("play").textContent = this.isTurning ? "Stop" : "Turn";
-        $("play").setAttribute("aria-pressed", this.isTurning);
     }
 
     frame(now, before) {
