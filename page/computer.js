@@ -1,4 +1,4 @@
-// What is to be computed, in which order, and by whom: a worker, or this thread where the browser allows no worker.
+// Decides what to compute next, and has a worker compute it, or this thread where the browser allows no worker.
 
 const SPEEDS = 15; // of the power curve, besides hover
 

@@ -118,8 +118,8 @@ class Rotor {
     }
 
     // A function for the library's table, with the arguments of fmi2CallbackLogger: environment, instance, status,
-    // category, message, and the place of the variable arguments, of which there are none. JavaScript cannot put its
-    // own functions into such a table, but those that another module imports and exports.
+    // category, message, and the place of the variable arguments, of which there are none. A table takes no plain
+    // JavaScript function, so a small module imports the function and exports it again.
     logger() {
         const shim = Uint8Array.of(
             0,

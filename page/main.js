@@ -82,7 +82,7 @@ class Page {
         this.results.showNumbers(flight, state);
         this.scene.show(flight, drawnRotor(state), field);
         this.results.showLegend(this.scene.range, field);
-        $("slow").textContent = `${Math.round((SECONDS * state.rpm) / 60)} times slowed down`;
+        $("slow").textContent = `slowed down ${Math.round((SECONDS * state.rpm) / 60)} times`;
     }
 
     togglePlay() {

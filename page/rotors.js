@@ -9,7 +9,7 @@ const $ = (id) => document.getElementById(id);
 const ROTORS = {
     a109: {
         title: "Main rotor of the Agusta A109",
-        source: "Heffley & Mnich (1988), NASA CR-177476, and 10.8 ft² of drag area. Assumed: NACA 0012, a cutout of 0.2, and the pitch, which carries the weight of 24 kN.",
+        source: "Heffley & Mnich (1988), NASA CR-177476, as two public programs copy its table: dimensions, inertia, and 10.8 ft² of drag area along x. Assumed: NACA 0012, a cutout of 0.2, and the pitch, which carries the weight of 24 kN.",
         fixed: {
             "geometry.radius": 5.4864,
             "geometry.rootCutout": 0.2,

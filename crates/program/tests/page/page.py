@@ -1,4 +1,4 @@
-"""The page in Chromium: its numbers are those of FMPy, and all can work it.
+"""The page in Chromium: its numbers are those of FMPy, and it works by mouse, keyboard and touch.
 
     python page.py --page HelicopterRotor.html --fmu HelicopterRotor.fmu --chromium FILE --pictures FOLDER
 
