@@ -127,6 +127,7 @@ function tell(message) {
 
 async function load() {
     const data = JSON.parse($("data").textContent);
+    $("licences").textContent = data.licences;
     const packed = Uint8Array.from(atob(data.library), (letter) => letter.charCodeAt(0));
     const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
     const module = await WebAssembly.compile(await new Response(stream).arrayBuffer());
