@@ -38,12 +38,12 @@ class Chart {
     draw(points, measured = [], present = undefined) {
         const { svg } = this;
         svg.replaceChildren();
+        this.points = points;
         const all = [...points, ...measured, ...(present ? [present] : [])];
         if (all.length === 0) {
             element(svg, "text", { x: 210, y: 130, class: "axis", "text-anchor": "middle" }, "no such flight");
             return;
         }
-        this.points = points;
         const highest = Math.max(...all.map((p) => p.y), 0);
         const lowest = Math.min(...all.map((p) => p.y), 0);
         const right = Math.max(...all.map((p) => p.x));

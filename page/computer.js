@@ -1,4 +1,4 @@
-// What is to be computed, in which order, and by whom: a worker, or this thread where the browser allows no worker.
+// Decides what to compute next, and has a worker compute it, or this thread where the browser allows no worker.
 
 const SPEEDS = 15; // of the power curve, besides hover
 
@@ -51,6 +51,7 @@ class Computer {
         if (this.wanted[0] === "power") {
             const question = this.nextSpeed(values);
             if (question) return this.send("power", question);
+            if (this.curve.length === 0) this.found.power([]);
             this.wanted.shift();
         }
         if (this.wanted.length === 0) {
@@ -82,6 +83,8 @@ class Computer {
     }
 
     answered({ id, job, result, messages, error }) {
+        // Without a rotor nothing more is asked.
+        if (error && job === "load") return this.found.failed(`The rotor cannot be loaded: ${error}`);
         this.isBusy = false;
         const isOld = id !== this.version;
         if (job === "revolution") {
@@ -89,6 +92,7 @@ class Computer {
             // Also if it is old: what is shown follows a slider that moves on.
             this.found.revolution(result, this.asked, error ? [error] : messages);
         }
+        if (error && job !== "revolution" && !isOld) this.found.failed(error);
         if (job === "polar" && !isOld) this.found.polar(result ?? []);
         if (job === "power" && !isOld) {
             if (result?.power !== undefined) {

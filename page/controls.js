@@ -12,9 +12,17 @@ class Controls {
         $("inflow").addEventListener("change", () => page.put("inflow", $("inflow").value));
         $("flapping").addEventListener("change", () => page.put("flapping", $("flapping").checked));
         $("field").addEventListener("change", () => page.showFlight());
+        for (const list of ["rotor", "inflow", "field"]) leaveAfterMouse($(list));
+        document.addEventListener("click", ({ target, detail }) => {
+            // A click by the mouse, not by a key.
+            if (detail > 0) target.closest("button")?.blur();
+        });
         $("reset").addEventListener("click", () => page.begin(page.state.rotor));
         $("play").addEventListener("click", () => page.togglePlay());
-        $("copy-link").addEventListener("click", () => copy($("copy-link"), location.href));
+        $("copy-link").addEventListener("click", () => {
+            // Not the address itself, which the browser may not have let the page change.
+            copy($("copy-link"), `${location.href.split("#")[0]}#${toLink(page.state)}`);
+        });
         $("copy-values").addEventListener("click", () => copy($("copy-values"), page.python()));
         $("controls").addEventListener("submit", (event) => event.preventDefault());
         for (const button of document.querySelectorAll("[data-view]")) {
@@ -54,6 +62,7 @@ class Controls {
         const { state } = this.page;
         $("rotor").value = state.rotor;
         $("source").textContent = `${ROTORS[state.rotor].title}: ${ROTORS[state.rotor].source}`;
+        $("drag").textContent = `${ROTORS[state.rotor].dragArea}\u00a0m²`;
         $("inflow").value = state.inflow;
         const { description } = this.inflowModels.find((model) => model.name === state.inflow);
         $("inflow-description").textContent = description;
@@ -63,7 +72,6 @@ class Controls {
             for (const input of [$(control.name), $(`${control.name}-number`)]) {
                 if (input === used) continue;
                 Object.assign(input, rangeOf(control, state.rotor));
-                if (input.type === "number") input.step = "any";
                 input.value = state[control.name];
             }
         }
@@ -74,7 +82,7 @@ class Controls {
         const { page } = this;
         if (event.ctrlKey || event.metaKey || event.altKey) return;
         if (target.matches("select, input[type=number]")) return;
-        if (key === " " && !target.matches("button, input")) {
+        if (key === " " && !target.matches("button, select, summary, input:not([type=range])")) {
             event.preventDefault();
             page.togglePlay();
         }
@@ -90,6 +98,14 @@ class Controls {
             page.scene.turn(...turn);
         }
     }
+}
+
+// A list in which the mouse has chosen gives the focus back, so that the page's keys work. One that keys move keeps it.
+function leaveAfterMouse(list) {
+    let isByMouse = false;
+    list.addEventListener("pointerdown", () => (isByMouse = true));
+    list.addEventListener("keydown", () => (isByMouse = false));
+    list.addEventListener("change", () => isByMouse && list.blur());
 }
 
 async function copy(button, text) {

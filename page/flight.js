@@ -84,7 +84,8 @@ function hoverPolar(rotor, values) {
 // `jacobian`. There is no power where the rotor cannot fly so.
 function levelFlight(rotor, values, { weight, dragArea, speed, guess }) {
     const forces = ([collective, tilt]) => {
-        const [forward, up, power, density] = meanLoads(rotor, { ...values, collective, tilt, "velocity[1]": speed });
+        const level = { collective, tilt, "velocity[1]": speed, "velocity[3]": 0 };
+        const [forward, up, power, density] = meanLoads(rotor, { ...values, ...level });
         return { errors: [forward - 0.5 * density * speed ** 2 * dragArea, up - weight], power };
     };
     let { point, jacobian } = guess;
@@ -136,8 +137,8 @@ function meanLoads(rotor, values) {
 // What the worker answers to a message. Each answer has the identity of its question.
 let worked; // the rotor of this worker
 function answer({ id, job, module, description, values, flight }) {
-    if (module) worked = new Rotor(module, description);
     try {
+        if (module) worked = new Rotor(module, description);
         const jobs = {
             load: () => true,
             revolution: () => revolution(worked, values),

@@ -118,8 +118,8 @@ class Rotor {
     }
 
     // A function for the library's table, with the arguments of fmi2CallbackLogger: environment, instance, status,
-    // category, message, and the place of the variable arguments, of which there are none. JavaScript cannot put its
-    // own functions into such a table, but those that another module imports and exports.
+    // category, message, and the place of the variable arguments, of which there are none. A table takes no plain
+    // JavaScript function, so a small module imports the function and exports it again.
     logger() {
         const shim = Uint8Array.of(
             0,
@@ -159,10 +159,9 @@ class Rotor {
             0,
             0, // export it as f
         );
-        const log = (_environment, _instance, status, _category, message) => {
+        const log = (_environment, _instance, _status, _category, message) => {
             // The message is the format of a printf.
             this.messages.push(this.textAt(message).replaceAll("%%", "%"));
-            if (status < FMI_ERROR) this.warned = true;
         };
         const { f } = new WebAssembly.Instance(new WebAssembly.Module(shim), { e: { f: log } }).exports;
         const table = this.exports.__indirect_function_table;
@@ -242,18 +241,5 @@ class Rotor {
         }
         this.call("fmi2DoStep", () => [this.time, duration, 0]);
         this.time += duration;
-    }
-
-    // Exact derivatives of real variables by one of them.
-    derivatives(unknowns, known) {
-        let place;
-        this.call("fmi2GetDirectionalDerivative", () => {
-            const rows = this.references(unknowns);
-            const columns = this.references([known]);
-            const seed = this.numbers(Float64Array, [1]);
-            place = this.place(8 * unknowns.length);
-            return [rows, unknowns.length, columns, 1, seed, place];
-        });
-        return Array.from(new Float64Array(this.exports.memory.buffer, place, unknowns.length));
     }
 }

@@ -12,8 +12,9 @@ class Page {
             { module, description },
             {
                 revolution: (flight, state, messages) => this.foundRevolution(flight, state, messages),
-                polar: (points) => this.results.showPolar(points, this.state, this.flight),
-                power: (points) => this.results.showPower(points, this.state, this.flight),
+                polar: (points) => this.results.showPolar(points, this.state, this.presentFlight()),
+                power: (points) => this.results.showPower(points, this.state, this.presentFlight()),
+                failed: tell,
             },
         );
         this.turned = 0;
@@ -54,22 +55,24 @@ class Page {
         try {
             history.replaceState(null, "", `#${toLink(this.state)}`);
         } catch {
-            // Browsers limit how often; the next change says it again.
+            // Browsers limit how often the address may change; the next change writes it.
         }
         this.computer.want(this.state);
     }
 
+    // Without a flight, because of an error, the numbers of an earlier one are marked as invalid.
     foundRevolution(flight, state, messages) {
-        $("messages").replaceChildren(
-            ...messages.map((message) => {
-                const line = document.createElement("p");
-                line.textContent = message;
-                return line;
-            }),
-        );
+        $("messages").replaceChildren();
+        messages.forEach(tell);
+        document.body.classList.toggle("has-failed", !flight);
         if (!flight) return;
         Object.assign(this, { flight, flightState: state });
         this.showFlight();
+    }
+
+    // None after an error.
+    presentFlight() {
+        return document.body.classList.contains("has-failed") ? undefined : this.flight;
     }
 
     showFlight() {
@@ -79,7 +82,7 @@ class Page {
         this.results.showNumbers(flight, state);
         this.scene.show(flight, drawnRotor(state), field);
         this.results.showLegend(this.scene.range, field);
-        $("slow").textContent = `${Math.round((SECONDS * state.rpm) / 60)} times slowed down`;
+        $("slow").textContent = `slowed down ${Math.round((SECONDS * state.rpm) / 60)} times`;
     }
 
     togglePlay() {
@@ -89,7 +92,6 @@ class Page {
 
     showPlay() {
         $("play").textContent = this.isTurning ? "Stop" : "Turn";
-        $("play").setAttribute("aria-pressed", this.isTurning);
     }
 
     frame(now, before) {
@@ -115,8 +117,17 @@ class Page {
     }
 }
 
+// Each message stands there once.
+function tell(message) {
+    if ([...$("messages").children].some((line) => line.textContent === message)) return;
+    const line = document.createElement("p");
+    line.textContent = message;
+    $("messages").append(line);
+}
+
 async function load() {
     const data = JSON.parse($("data").textContent);
+    $("licences").textContent = data.licences;
     const packed = Uint8Array.from(atob(data.library), (letter) => letter.charCodeAt(0));
     const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
     const module = await WebAssembly.compile(await new Response(stream).arrayBuffer());
@@ -125,5 +136,5 @@ async function load() {
 }
 
 load().catch((error) => {
-    $("messages").textContent = `The rotor cannot be loaded: ${error.message}. It needs a browser of 2023 or later.`;
+    tell(`The rotor cannot be loaded: ${error.message}. It needs a browser of 2023 or later.`);
 });

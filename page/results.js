@@ -95,13 +95,14 @@ class Results {
             : "";
     }
 
+    // The present flight is on the curve of level flight only if it does not climb.
     showPower(points, state, flight) {
-        const power = flight?.outputs.power ?? 0;
-        const isLarge = Math.max(...points.map((p) => p.power), power) >= 9999.5;
+        const isShown = flight && points.length > 0 && state.climb === 0;
+        const present = isShown ? [{ speed: state.speed, power: flight.outputs.power }] : [];
+        const isLarge = Math.max(...[...points, ...present].map((p) => p.power)) >= 9999.5;
         this.power.y = isLarge ? "power, kW" : "power, W";
         const scaled = (p) => ({ ...p, x: p.speed, y: isLarge ? p.power / 1000 : p.power, watts: p.power });
-        $("drag").textContent = `${ROTORS[state.rotor].dragArea}\u00a0m²`;
-        this.power.draw(points.map(scaled), [], scaled({ speed: state.speed, power }));
+        this.power.draw(points.map(scaled), [], present.map(scaled)[0]);
     }
 }
 

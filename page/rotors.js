@@ -9,7 +9,7 @@ const $ = (id) => document.getElementById(id);
 const ROTORS = {
     a109: {
         title: "Main rotor of the Agusta A109",
-        source: "Heffley & Mnich (1988), NASA CR-177476, and 10.8 ft² of drag area. Assumed: NACA 0012, a cutout of 0.2, and the pitch, which carries the weight of 24 kN.",
+        source: "Heffley & Mnich (1988), NASA CR-177476, as two public programs copy its table: dimensions, inertia, and 10.8 ft² of drag area along x. Assumed: NACA 0012, a cutout of 0.2, and the pitch, which carries the weight of 24 kN.",
         fixed: {
             "geometry.radius": 5.4864,
             "geometry.rootCutout": 0.2,
@@ -165,7 +165,7 @@ function toLink(state) {
 // What a link says; what is unknown or out of range in it is left out.
 function fromLink(link, inflowModels) {
     const said = new URLSearchParams(link.replace(/^#/, ""));
-    const rotor = said.get("rotor") in ROTORS ? said.get("rotor") : "a109";
+    const rotor = Object.hasOwn(ROTORS, said.get("rotor")) ? said.get("rotor") : "a109";
     const state = startOf(rotor);
     for (const control of CONTROLS) {
         const { min, max } = rangeOf(control, rotor);
@@ -174,7 +174,7 @@ function fromLink(link, inflowModels) {
     }
     state.blades = Math.round(state.blades);
     if (inflowModels.includes(said.get("inflow"))) state.inflow = said.get("inflow");
-    if (said.has("flapping")) state.flapping = said.get("flapping") === "true";
+    if (["true", "false"].includes(said.get("flapping"))) state.flapping = said.get("flapping") === "true";
     return state;
 }
 

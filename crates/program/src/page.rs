@@ -17,6 +17,9 @@ use std::{fs, io::Write, path::Path};
 const DATA: &str = r#"<script type="application/json" id="data">{}</script>"#;
 /// Points that the page shows beside its curve in hover.
 const MEASURED: &str = "knight-hefner-1937-tn626-hover.csv";
+/// What the page says about licences, from modelDescription/licenses/: the FMU's own, and the parts
+/// by others that are in the library.
+const LICENCES: [&str; 3] = ["LICENSE-MIT.txt", "THIRD-PARTY.txt", "LICENSE-APACHE.txt"];
 
 /// Writes the page. After an error there is no incomplete `file`.
 pub fn write(file: &Path, target: &Path) -> Result<(), Failure> {
@@ -38,8 +41,22 @@ pub fn make(target: &Path) -> Result<String, Failure> {
         "library": BASE64_STANDARD.encode(packed(&library)?),
         "description": description::XML,
         "measured": measured,
+        "licences": licences()?,
     });
     with_data(&page, &data.to_string())
+}
+
+/// The texts, each below its name.
+fn licences() -> Result<String, Failure> {
+    let folder = sources().join("modelDescription/licenses");
+    let mut texts = Vec::new();
+    for name in LICENCES {
+        texts.push(format!(
+            "{name}\n\n{}",
+            files::read_text(&folder.join(name))?
+        ));
+    }
+    Ok(texts.join("\n\n"))
 }
 
 fn packed(library: &[u8]) -> Result<Vec<u8>, Failure> {

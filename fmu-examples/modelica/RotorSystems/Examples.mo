@@ -53,8 +53,10 @@ package Examples "Systems to start from"
     connect(none.y, rotor.cyclicLateral);
     connect(rpm.y, rotor.rpm);
     annotation (Documentation(info="<html>
-<p>The system of <code>climbing_disc/climb.py</code>: the height <code>guide.s</code> reaches 2.5 m and stays. The guide
-carries the rotor's torque.</p>
+<p>The system of <code>climbing_disc/climb.py</code> with the FMU's default models; for those of <code>climb.py</code> set
+<code>rotor(fmu(settings = \"models.inflow = pittPetersDynamic; flapping.enabled = true\"))</code>. It begins at
+a collective of 0.14 rad, <code>climb.py</code> at 8 deg. The height <code>guide.s</code> reaches 2.5 m and stays. The
+guide carries the rotor's torque.</p>
 </html>"));
   end PartialClimb;
 

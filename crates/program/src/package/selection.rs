@@ -105,7 +105,7 @@ impl Contents {
 }
 
 impl Selection {
-    /// The libraries, those that are given, and the others built; and the page. `library` is this
+    /// The given libraries, the others, which are built here, and the page. `library` is this
     /// machine's, if the user has named it; `target` is cargo's target folder.
     pub fn contents(self, library: Option<PathBuf>, target: &Path) -> Result<Contents, Failure> {
         let is_for_all = Some(Wanted::Each(Platform::ALL.to_vec())) == self.platforms;

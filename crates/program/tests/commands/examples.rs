@@ -321,8 +321,6 @@ fn the_surrogate_has_its_error(rows: &[Row]) {
     }
 }
 
-/// The mean inflow of a rotor with lift slope a settles in 8 R/(3 pi)/(4 v + a sigma Omega R/4)
-/// (Pitt & Peters 1981), here with v = 3.8 m/s and a of 6 to 6.5: 24 to 26 ms.
 /// What needs the Modelica Standard Library is left out where MODELICAPATH does not name it.
 #[test]
 fn the_modelica_package_is_parsed_and_has_the_names_and_frames_of_the_fmu() {
@@ -339,6 +337,8 @@ fn the_modelica_package_is_parsed_and_has_the_names_and_frames_of_the_fmu() {
     assert!(imported.contains("RealInput velocity_1_;"), "{imported}");
 }
 
+/// The mean inflow of a rotor with lift slope a settles in 8 R/(3 pi)/(4 v + a sigma Omega R/4)
+/// (Pitt & Peters 1981), here with v = 3.8 m/s and a of 6 to 6.5: 24 to 26 ms.
 #[test]
 fn the_notebook_runs_from_import_to_a_linear_model() {
     let (text, folder) = run("notebook");

@@ -158,6 +158,18 @@ fn version(package: &toml::Value) -> &str {
 
 /// The licence file names every linked crate, with the linked version.
 #[test]
+fn the_third_party_licences_name_the_source_of_every_rotor_and_section() {
+    let text = support::sources().join("modelDescription/licenses/THIRD-PARTY.txt");
+    let text = fs::read_to_string(text).unwrap();
+    let files = support::content(support::packaged_fmu());
+    let data = files.keys().filter(|name| name.starts_with("resources/"));
+    assert!(data.clone().count() > 20);
+    for name in data {
+        assert!(text.contains(name), "THIRD-PARTY.txt does not name {name}");
+    }
+}
+
+#[test]
 fn the_third_party_licences_are_those_of_the_lock_file() {
     let root = support::sources();
     let lock: toml::Table = fs::read_to_string(root.join("Cargo.lock"))

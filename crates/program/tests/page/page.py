@@ -1,4 +1,4 @@
-"""The page in Chromium: its numbers are those of FMPy, and all can work it.
+"""The page in Chromium: its numbers are those of FMPy, and it works by mouse, keyboard and touch.
 
     python page.py --page HelicopterRotor.html --fmu HelicopterRotor.fmu --chromium FILE --pictures FOLDER
 
@@ -77,6 +77,19 @@ def flown(values):
     return means, state
 
 
+def collective_for(upward, values):
+    """The collective in degrees at which FMPy finds this upward force, by the secant method."""
+    (before, error) = (values["collective"], flown(values)[0]["force[3]"] - upward)
+    now = before - math.radians(1.0)
+    for _ in range(8):
+        found = flown({**values, "collective": now})[0]["force[3]"] - upward
+        if abs(found) < 1e-4 * upward:
+            return math.degrees(now)
+        before, now = now, now - found * (now - before) / (found - error)
+        error = found
+    raise AssertionError("no collective gives this force")
+
+
 class ThePage(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -89,7 +102,7 @@ class ThePage(unittest.TestCase):
         cls.playwright.stop()
 
     @contextmanager
-    def opened(self, link="", options=DESKTOP, script=None):
+    def opened(self, link="", options=DESKTOP, script=None, until=COMPUTED):
         """The page, when all is computed; it must have met no error and asked for no other file."""
         context = self.browser.new_context(**options)
         page = context.new_page()
@@ -103,13 +116,13 @@ class ThePage(unittest.TestCase):
         if script:
             page.add_init_script(script)
         page.goto(f"{ARGUMENTS.page.resolve().as_uri()}#{link}")
-        self.wait(page)
+        self.wait(page, until)
         yield page
         self.assertEqual(problems, [])
         context.close()
 
-    def wait(self, page):
-        page.wait_for_function(COMPUTED, timeout=240_000)
+    def wait(self, page, until=COMPUTED):
+        page.wait_for_function(until, timeout=240_000)
 
     def output(self, page, name):
         return page.inner_text(f'[data-output="{name}"]')
@@ -131,6 +144,40 @@ class ThePage(unittest.TestCase):
             with self.subTest(link), self.opened(link) as page:
                 self.assert_as_in_fmpy(page)
                 self.assertEqual(page.inner_text("#messages"), "")
+
+    def test_a_point_of_each_curve_is_that_of_fmpy(self):
+        with self.opened() as page:
+            values = ast.literal_eval(page.evaluate("page.python()"))
+            polar = page.evaluate("page.results.polar.points")[20]
+            power = page.evaluate("page.results.power.points")[8]
+            weight = page.evaluate("page.flight.outputs['force[3]']")
+        hover = dict.fromkeys(
+            "velocity[1] velocity[3] tilt cyclicLongitudinal cyclicLateral".split(), 0.0
+        )
+        rigid = {"flapping.enabled": False, "models.blades": "disc"}
+        collective = {"collective": math.radians(polar["collective"])}
+        with Rotor(ARGUMENTS.fmu, {**values, **rigid, **hover, **collective}) as rotor:
+            for name, value in (
+                ("thrustCoefficient", polar["ct"]),
+                ("torqueCoefficient", polar["cq"]),
+            ):
+                self.assertAlmostEqual(value / rotor[name], 1.0, delta=1e-9)
+        # Blades that flap: the mean over one blade passage, of a flight that carries the weight and
+        # pulls the drag area of 1 m2.
+        collective, tilt = power["point"]
+        flight = {"collective": collective, "tilt": tilt, "velocity[1]": power["speed"]}
+        means, parts = {"force[1]": 0.0, "force[3]": 0.0, "power": 0.0, "airDensity": 0.0}, 6
+        with Rotor(ARGUMENTS.fmu, {**values, **flight}) as rotor:
+            for part in range(parts):
+                if part > 0:
+                    rotor.step(60.0 / values["rpm"] / values["geometry.numberOfBlades"] / parts)
+                for name in means:
+                    means[name] += rotor[name] / parts
+        self.assertGreater(power["speed"], 30.0)
+        self.assertAlmostEqual(power["watts"] / means["power"], 1.0, delta=1e-9)
+        drag = 0.5 * means["airDensity"] * power["speed"] ** 2
+        self.assertAlmostEqual(means["force[3]"], weight, delta=2e-3 * weight)
+        self.assertAlmostEqual(means["force[1]"], drag, delta=2e-3 * weight)
 
     def test_it_computes_the_same_where_the_browser_allows_no_worker(self):
         with self.opened(script="delete window.Worker") as page:
@@ -177,8 +224,27 @@ class ThePage(unittest.TestCase):
             link = page.evaluate("location.hash").lstrip("#")
         with self.opened(link) as page:
             self.assertEqual(self.output(page, "thrust"), thrust)
-        with self.opened("rotor=none&collective=900&blades=x&inflow=magic") as page:
-            self.assertEqual(page.evaluate("toLink(page.state)"), "rotor=a109")
+        for link in (
+            "rotor=none&collective=900&blades=x&inflow=magic",
+            "rotor=toString",
+            "flapping=banana",
+        ):
+            with self.subTest(link), self.opened(link) as page:
+                self.assertEqual(page.evaluate("toLink(page.state)"), "rotor=a109")
+
+    def test_the_copied_link_is_that_of_the_values_shown(self):
+        # A browser that lets the page change its address no more.
+        script = """
+            history.replaceState = () => { throw new Error("too often"); };
+            const clipboard = { writeText: async (text) => (window.copied = text) };
+            Object.defineProperty(navigator, "clipboard", { value: clipboard });
+        """
+        with self.opened("rotor=propeller", script=script) as page:
+            page.fill("#speed-number", "8")
+            page.click("#copy-link")
+            page.wait_for_function("window.copied")
+            address = f"{ARGUMENTS.page.resolve().as_uri()}#rotor=propeller&speed=8"
+            self.assertEqual(page.evaluate("copied"), address)
 
     def test_a_number_out_of_range_counts_as_the_end_of_the_range(self):
         with self.opened() as page:
@@ -188,6 +254,78 @@ class ThePage(unittest.TestCase):
             self.assertEqual(page.input_value("#collective-number"), "25")
             page.fill("#collective-number", "")
             self.assertEqual(page.evaluate("page.state.collective"), 25)
+
+    def test_arrow_keys_move_a_number_by_the_step_of_its_slider(self):
+        with self.opened() as page:
+            page.focus("#chord-number")
+            page.keyboard.press("ArrowUp")
+            self.assertEqual(page.evaluate("page.state.chord"), 0.3353)
+
+    def test_keys_work_on_a_slider_and_after_the_mouse(self):
+        is_turning = "page.isTurning"
+        with self.opened() as page:
+            page.focus("#collective")
+            page.keyboard.press(" ")
+            self.assertFalse(page.evaluate(is_turning))
+            # A list in which the mouse chose, and a button that it pressed.
+            page.dispatch_event("#field", "pointerdown")
+            page.focus("#field")
+            page.select_option("#field", "mach")
+            page.keyboard.press("3")
+            self.assertEqual(page.input_value("#field"), "thrustPerLength")
+            page.click("[data-view]:nth-child(2)")
+            page.keyboard.press(" ")
+            self.assertTrue(page.evaluate(is_turning))
+            # One that keys move keeps the focus.
+            page.focus("#field")
+            page.keyboard.press("ArrowDown")
+            self.assertEqual(page.input_value("#field"), "mach")
+            self.assertEqual(page.evaluate("document.activeElement.id"), "field")
+
+    def test_errors_are_told_and_numbers_of_an_earlier_flight_are_marked(self):
+        opacity = "Number(getComputedStyle(document.querySelector('#readouts output')).opacity)"
+        fail = "() => { throw new Error('%s failed') }"
+        # Without a worker the page computes with functions that can be replaced here.
+        with self.opened("rotor=knight-hefner", script="delete window.Worker") as page:
+            page.evaluate(
+                f"hoverPolar = {fail % 'polar'}; levelFlight = {fail % 'power'};"
+                "window.healthy = revolution; null"
+            )
+            page.fill("#collective-number", "9")
+            self.wait(page)
+            self.assertEqual(
+                page.locator("#messages p").all_inner_texts(), ["polar failed", "power failed"]
+            )
+            self.assertEqual(page.inner_text("#power"), "no such flight")
+            self.assertEqual(page.evaluate(opacity), 1.0)
+            page.evaluate(f"revolution = {fail % 'revolution'}; null")
+            page.fill("#collective-number", "10")
+            self.wait(page)
+            self.assertIn("revolution failed", page.inner_text("#messages"))
+            self.assertEqual(page.evaluate(opacity), 0.3)
+            self.assertEqual(page.locator("#curves .present").count(), 0)
+            page.evaluate("revolution = healthy; null")
+            page.fill("#collective-number", "11")
+            self.wait(page)
+            self.assertNotIn("revolution", page.inner_text("#messages"))
+            self.assertEqual(page.evaluate(opacity), 1.0)
+
+    def test_a_rotor_that_cannot_be_loaded_is_told(self):
+        script = """
+            delete window.Worker;
+            WebAssembly.Instance = class { constructor() { throw new Error("no memory"); } };
+        """
+        until = "document.getElementById('messages').textContent"
+        with self.opened(script=script, until=until) as page:
+            self.assertEqual(page.inner_text("#messages"), "The rotor cannot be loaded: no memory")
+
+    def test_the_licences_are_in_the_page(self):
+        with self.opened("rotor=knight-hefner", PHONE) as page:
+            page.click("summary")
+            text = page.inner_text("#licences")
+            for part in ("MIT License", "nalgebra", "dlmalloc", "Apache License"):
+                self.assertIn(part, text)
+            self.assertLessEqual(page.evaluate("document.documentElement.scrollWidth"), 390)
 
     def test_measured_points_are_shown_for_the_rotor_that_was_measured_only(self):
         with self.opened("rotor=knight-hefner") as page:
@@ -212,6 +350,37 @@ class ThePage(unittest.TestCase):
             on_curve = before + (after - before) * (50.0 - low) / (high - low)
             power = page.evaluate("page.flight.outputs.power")
             self.assertAlmostEqual(power / on_curve, 1.0, delta=0.02)
+
+    def test_power_in_level_flight_does_not_depend_on_the_climb_that_is_set(self):
+        points = "page.results.power.points.map(({ speed, watts }) => [speed, watts])"
+        present = "#power .present"
+        with self.opened() as page:
+            level = page.evaluate(points)
+            upward = page.evaluate("page.flight.outputs['force[3]']")
+            values = ast.literal_eval(page.evaluate("page.python()"))
+            self.assertEqual(page.locator(present).count(), 1)
+        collective = collective_for(upward, {**values, "velocity[3]": 5.0})
+        with self.opened(f"climb=5&collective={collective}") as page:
+            climbing = page.evaluate(points)
+            self.assertAlmostEqual(
+                page.evaluate("page.flight.outputs['force[3]']") / upward, 1.0, delta=1e-3
+            )
+            self.assertEqual(page.locator(present).count(), 0)
+        self.assertEqual([speed for speed, _ in climbing], [speed for speed, _ in level])
+        for (speed, one), (_, other) in zip(level, climbing):
+            # Each has the weight to 0.2 %.
+            self.assertAlmostEqual(other / one, 1.0, delta=0.01, msg=f"{speed} m/s")
+
+    def test_there_is_no_power_curve_without_an_upward_force(self):
+        with self.opened("rotor=knight-hefner") as page:
+            self.assertEqual(page.locator("#power .curve").count(), 1)
+            page.fill("#collective-number", "-5")
+            self.wait(page)
+            self.assertLess(page.evaluate("page.flight.outputs['force[3]']"), 0.0)
+            self.assertEqual(page.inner_text("#power"), "no such flight")
+            page.hover("#power")
+            self.assertEqual(page.inner_text("#power"), "no such flight")
+            self.assertRegex(page.inner_text("#drag"), "0.008.m²")
 
     def test_it_fits_a_phone_and_a_finger_moves_it(self):
         with self.opened("rotor=knight-hefner", PHONE) as page:

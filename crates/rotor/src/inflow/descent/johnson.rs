@@ -215,8 +215,8 @@ fn helicopter<S: Scalar>(edgewise: S, climb: S) -> S {
         .unwrap_or_else(|| momentum(edgewise, climb, 0.0_f64.max(-climb.value()), begin))
 }
 
-/// A root of v sqrt(V_x^2 + (V_z + v)^2) = 1 by Newton's method, from a side on which it does not
-/// pass the root; none within the bound on its steps.
+/// A root of v sqrt(V_x^2 + (V_z + v)^2) = 1 by Newton's method, from a beginning from which it
+/// approaches the root without passing it; none within the bound on its steps.
 fn newton<S: Scalar>(edgewise: S, climb: S, begin: f64) -> Option<S> {
     let (v_x, v_z) = (edgewise.value(), climb.value());
     let mut v = begin;
