@@ -1,7 +1,10 @@
 //! The platforms of the .fmu: which libraries go into it, and what those for all platforms are.
 
 use crate::support::{self, fail, library, scratch, succeed};
-use helicopter_rotor::{block::variables::GUID, fmi2, fmi3};
+use helicopter_rotor::{
+    block::variables::{GUID, INSTANTIATION_TOKEN},
+    fmi2, fmi3,
+};
 use object::{
     BinaryFormat, FileKind, Object,
     macho::{self, MachHeader64},
@@ -61,8 +64,10 @@ fn a_library_that_does_not_fit_is_refused_with_the_reason() {
     let ours = library();
     let text = sources("README.md");
     let empty = made_from("other.so", "int other(void) { return 1; }");
-    let guid = format!("const char guid[] = \"{GUID}\"; int other(void) {{ return 1; }}");
-    let without_functions = made_from("without-functions.so", &guid);
+    let of_fmi2_only = format!("const char guid[] = \"{GUID}\"; int other(void) {{ return 1; }}");
+    let of_both = format!("const char token[] = \"{INSTANTIATION_TOKEN}\"; {of_fmi2_only}");
+    let of_fmi2_only = made_from("of-fmi2-only.so", &of_fmi2_only);
+    let without_functions = made_from("without-functions.so", &of_both);
     for (platform, file, words) in [
         ("win64", ours, "is for Linux on X86_64, not for win64"),
         (
@@ -75,6 +80,11 @@ fn a_library_that_does_not_fit_is_refused_with_the_reason() {
         (
             "linux64",
             &empty,
+            "was built from another modelDescription.xml",
+        ),
+        (
+            "linux64",
+            &of_fmi2_only,
             "was built from another modelDescription.xml",
         ),
         (
