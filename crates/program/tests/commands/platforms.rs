@@ -182,8 +182,8 @@ fn for_all_platforms() -> PathBuf {
 fn the_fmu_for_all_platforms_has_the_announced_size() {
     let size = fs::metadata(for_all_platforms()).unwrap().len();
     assert!(
-        size <= 6_200_000,
-        "{size} bytes; docs/platforms.md says 6.1 MB"
+        size <= 6_300_000,
+        "{size} bytes; docs/platforms.md says 6.3 MB"
     );
 }
 
