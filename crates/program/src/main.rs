@@ -47,6 +47,18 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Command {
+    #[command(flatten)]
+    InSourceTree(InSourceTree),
+    /// Make a .polar file of the section data of other programs, and draw it
+    ///
+    /// Says what each file was taken for. Data that end before the full circle are extended; the
+    /// rows that are not data are marked.
+    Polar(#[command(flatten)] polar::Options),
+}
+
+/// What works only in the source tree.
+#[derive(Subcommand)]
+enum InSourceTree {
     /// Make the two .fmu only
     Package {
         /// The .fmu of FMI 2.0 to write [default: target/fmu/HelicopterRotor.fmu, or that of
@@ -61,11 +73,6 @@ enum Command {
         #[command(flatten)]
         rotor: package::OwnRotor,
     },
-    /// Make a .polar file of the section data of other programs, and draw it
-    ///
-    /// Says what each file was taken for. Data that end before the full circle are extended; the
-    /// rows that are not data are marked.
-    Polar(#[command(flatten)] polar::Options),
     /// Show the rotor in a file: table, drawing, solidity, Lock number, hover
     Check(rotor_file::Check),
     /// Write a commented rotor file
@@ -169,15 +176,23 @@ fn parse_and_run() -> Result<ExitCode, Failure> {
 }
 
 fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
-    if let Some(Command::Polar(options)) = &command {
-        return polar::run(options);
+    match command {
+        Some(Command::Polar(options)) => polar::run(&options),
+        Some(Command::InSourceTree(command)) => run_in_source_tree(library, Some(command)),
+        None => run_in_source_tree(library, None),
     }
+}
+
+fn run_in_source_tree(
+    library: Option<PathBuf>,
+    command: Option<InSourceTree>,
+) -> Result<(), Failure> {
     let target = target_folder()?;
     let given = library.clone();
     let library = || library.map_or_else(|| package::library::build(&target), Ok);
     let default_fmu = target.join("fmu").join("HelicopterRotor.fmu");
     match command {
-        Some(Command::Package {
+        Some(InSourceTree::Package {
             out,
             selection,
             rotor,
@@ -190,32 +205,28 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
             draft::place_of_file(&out)?;
             draft::place_of_file(&package::beside(&out))?;
             let contents = selection.contents(given, &target)?;
-            let other = package::write_both(&out, &contents, own.as_ref())?;
-            output::print(format_args!("Made {}", out.display()))?;
-            output::print(format_args!("Made {}", other.display()))
+            make_both(&out, &contents, own.as_ref())
         }
-        // Has returned above, as it needs no source tree.
-        Some(Command::Polar(_)) => Ok(()),
-        Some(Command::Check(check)) => check.run(),
-        Some(Command::New(new)) => new.run(),
-        Some(Command::Page { out }) => {
+        Some(InSourceTree::Check(check)) => check.run(),
+        Some(InSourceTree::New(new)) => new.run(),
+        Some(InSourceTree::Page { out }) => {
             let out = out.unwrap_or_else(|| target.join("page").join("HelicopterRotor.html"));
             page::write(&out, &target)?;
             output::print(format_args!("Made {}", out.display()))
         }
-        Some(Command::Examples { names, out }) => {
+        Some(InSourceTree::Examples { names, out }) => {
             let out = out.unwrap_or_else(|| target.join("examples"));
             let fmu = out.join("HelicopterRotor.fmu");
             make_fmu(&fmu, &library()?)?;
             examples::run(&names, &fmu, &out, &target)
         }
-        Some(Command::Reference) => {
+        Some(InSourceTree::Reference) => {
             let library = library()?;
             make_fmu(&default_fmu, &library)?;
             scripts::make_reference_flights(&default_fmu, &target)?;
             make_fmu(&default_fmu, &library)
         }
-        Some(Command::Validate { check, out }) => {
+        Some(InSourceTree::Validate { check, out }) => {
             let purpose = if check {
                 Purpose::Check
             } else {
@@ -225,15 +236,23 @@ fn run(Arguments { library, command }: Arguments) -> Result<(), Failure> {
             validation::check_before(&out)?;
             validation::run(&out, &library()?, &target, purpose)
         }
-        Some(Command::Python) => output::print(python::environment(&target)?.display()),
+        Some(InSourceTree::Python) => output::print(python::environment(&target)?.display()),
         None => {
             let contents = package::Contents::of_host(&library()?)?;
-            let other = package::write_both(&default_fmu, &contents, None)?;
-            output::print(format_args!("Made {}", default_fmu.display()))?;
-            output::print(format_args!("Made {}", other.display()))?;
+            make_both(&default_fmu, &contents, None)?;
             scripts::fly_knight_hefner(&default_fmu, &target)
         }
     }
+}
+
+fn make_both(
+    file: &Path,
+    contents: &package::Contents,
+    own: Option<&package::Own>,
+) -> Result<(), Failure> {
+    let other = package::write_both(file, contents, own)?;
+    output::print(format_args!("Made {}", file.display()))?;
+    output::print(format_args!("Made {}", other.display()))
 }
 
 fn make_fmu(file: &Path, library: &Path) -> Result<(), Failure> {
