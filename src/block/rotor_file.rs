@@ -18,7 +18,7 @@ use super::{
     },
 };
 use rotor::geometry::{Given, GivenValue, RotorDefinition, nearest};
-use std::path::Path;
+use std::{fmt, path::Path};
 
 /// The groups of parameters that a rotor file may give, besides `airfoil.file`.
 const GROUPS: [&str; 4] = ["flapping.", "models.", "drive.", "numerics."];
@@ -163,11 +163,7 @@ impl Entry<'_> {
         }
         values.from_file.push(own);
         replace(values);
-        let unit = if unit == "rad" { "deg" } else { unit };
-        let unit = if unit == "1" { "" } else { unit };
-        Ok(format!("{name} = {} {unit}", self.given.value)
-            .trim_end()
-            .to_owned())
+        Ok(format!("{name} = {}", with_unit(&self.given.value, unit)))
     }
 
     /// A number in the unit of the variable and in its range. Angles of rotor files are in degrees.
@@ -182,18 +178,13 @@ impl Entry<'_> {
         if (variable.min..=variable.max).contains(&value) && value.is_finite() {
             return Ok(value);
         }
-        let unit = match variable.unit {
-            "rad" => " deg".to_owned(),
-            "1" => String::new(),
-            unit => format!(" {unit}"),
-        };
         let limit = |x: f64| shown(if is_angle { x.to_degrees().round() } else { x });
         Err(format!(
-            "{} is {}{unit}, which is out of range; give a value from {} to {}{unit}",
+            "{} is {}, which is out of range; give a value from {} to {}",
             variable.name,
-            self.given.value,
+            with_unit(&self.given.value, variable.unit),
             limit(variable.min),
-            limit(variable.max)
+            with_unit(limit(variable.max), variable.unit)
         ))
     }
 
@@ -248,6 +239,15 @@ impl Entry<'_> {
             meant.map_or_else(String::new, |name| format!("; did you mean {name}?")),
             known.collect::<Vec<_>>().join(", ")
         )
+    }
+}
+
+/// A value as in rotor files, with its unit: angles are in degrees, and ratios have none.
+fn with_unit(value: impl fmt::Display, unit: &str) -> String {
+    match unit {
+        "rad" => format!("{value} deg"),
+        "1" | "" => value.to_string(),
+        unit => format!("{value} {unit}"),
     }
 }
 
