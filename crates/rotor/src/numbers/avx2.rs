@@ -244,7 +244,12 @@ impl Plain for Avx2 {
     }
     #[inline(always)]
     fn rows(table: &[[f64; 4]], index: &[usize; LANES]) -> [Self; 4] {
-        let row = index.map(|index| &table[index]);
+        let row = [
+            &table[index[0]],
+            &table[index[1]],
+            &table[index[2]],
+            &table[index[3]],
+        ];
         // SAFETY: as above; a row has four numbers.
         unsafe {
             let row = [
