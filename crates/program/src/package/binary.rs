@@ -77,7 +77,7 @@ fn check(platform: Platform, content: &[u8]) -> Result<(), String> {
 }
 
 /// The files in a universal file of macOS; any other file is one by itself.
-fn parts(content: &[u8]) -> Result<Vec<&[u8]>, object::Error> {
+pub fn parts(content: &[u8]) -> Result<Vec<&[u8]>, object::Error> {
     if FileKind::parse(content)? != FileKind::MachOFat32 {
         return Ok(vec![content]);
     }
@@ -116,28 +116,4 @@ fn in_words(format: BinaryFormat, processor: Architecture) -> String {
         _ => "another system",
     };
     format!("{system} on {processor:?}")
-}
-
-/// The universal file of macOS with two libraries for one processor each.
-pub fn universal(libraries: [&Binary; 2]) -> Binary {
-    /// Parts begin on pages, as the power of two of the larger ones.
-    const PAGE: u32 = 14;
-    let mut header = Vec::from(object::macho::FAT_MAGIC.to_be_bytes());
-    header.extend((libraries.len() as u32).to_be_bytes());
-    let mut content = vec![];
-    for Binary(library) in libraries {
-        content.resize(content.len().next_multiple_of(1 << PAGE), 0);
-        // The header takes the first page.
-        let begin = content.len() + (1 << PAGE);
-        // The types of processor, in the other order of bytes.
-        for field in [4, 8] {
-            header.extend(library[field..field + 4].iter().rev());
-        }
-        for number in [begin as u32, library.len() as u32, PAGE] {
-            header.extend(number.to_be_bytes());
-        }
-        content.extend(library);
-    }
-    header.resize(1 << PAGE, 0);
-    Binary([header, content].concat())
 }

@@ -4,14 +4,18 @@
 //! * `selection.rs`: the platforms of the .fmu
 //! * `library.rs`: building the library for this machine
 //! * `cross.rs`: building it for other machines
+//! * `macos.rs`: what is made from libraries for macOS
+//! * `compiler.rs`: what the compiler says of itself
 //! * `binary.rs`: checking a built library
 //! * `documentation.rs`: the documentation page
 //! * `own_rotor.rs`: what makes an .fmu that of one rotor
 
 mod binary;
+mod compiler;
 mod cross;
 mod documentation;
 pub mod library;
+mod macos;
 pub mod own_rotor;
 mod platform;
 mod selection;
@@ -156,16 +160,14 @@ fn archive(
     }
     add("modelDescription.xml", xml.as_bytes())?;
     let identifier = own.map_or(MODEL_IDENTIFIER, |own| &own.name);
-    for (platform, binary) in &contents.binaries {
+    for (platform, _) in &contents.binaries {
         if contents.is_for_arm_only && !is_fmi2 && *platform == Platform::Linux64 {
             // Importers of FMI 3.0 find the folder of their machine.
             continue;
         }
         let (folder, suffix) = (platform.folder_of(version), platform.suffix());
-        add(
-            &format!("binaries/{folder}/{identifier}{suffix}"),
-            &binary.0,
-        )?;
+        let library = macos::library_in(version, *platform, contents, identifier)?;
+        add(&format!("binaries/{folder}/{identifier}{suffix}"), &library)?;
     }
     let has_page = contents.page.is_some();
     let index = documentation::page(&read("documentation/index.html")?, has_page)?;

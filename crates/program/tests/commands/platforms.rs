@@ -171,20 +171,30 @@ fn a_program_that_cargo_has_installed_refuses_to_work_elsewhere() {
 /// Names the .fmu for all platforms.
 const FMU: &str = "HELICOPTER_ROTOR_FMU";
 
-/// That .fmu.
+/// That .fmu, of FMI 2.0.
 fn for_all_platforms() -> PathBuf {
     let file = env::var_os(FMU).unwrap_or_else(|| panic!("set {FMU} to the file"));
     PathBuf::from(file)
 }
 
+/// The one of FMI 3.0, beside it.
+fn of_fmi3() -> PathBuf {
+    let name = for_all_platforms();
+    let name = name.file_stem().unwrap().to_str().unwrap();
+    for_all_platforms().with_file_name(format!("{name}-fmi3.fmu"))
+}
+
 #[test]
 #[ignore = "needs the .fmu that .ci/platforms makes"]
-fn the_fmu_for_all_platforms_has_the_announced_size() {
-    let size = fs::metadata(for_all_platforms()).unwrap().len();
-    assert!(
-        size <= 6_300_000,
-        "{size} bytes; docs/platforms.md says 6.3 MB"
-    );
+fn the_fmus_for_all_platforms_have_the_announced_size() {
+    for file in [for_all_platforms(), of_fmi3()] {
+        let size = fs::metadata(&file).unwrap().len();
+        let file = file.display();
+        assert!(
+            size <= 5_000_000,
+            "{file}: {size} bytes; docs/platforms.md says 5 MB"
+        );
+    }
 }
 
 #[test]
@@ -199,8 +209,12 @@ fn the_fmu_for_all_platforms_has_the_page_for_browsers() {
 
 /// The binaries by the name of their platform. The universal one is in its parts.
 fn binaries() -> Vec<(String, Vec<u8>)> {
+    binaries_in(&for_all_platforms())
+}
+
+fn binaries_in(fmu: &Path) -> Vec<(String, Vec<u8>)> {
     let mut binaries = Vec::new();
-    for (name, content) in support::content(&for_all_platforms()) {
+    for (name, content) in support::content(fmu) {
         let Some(place) = name.strip_prefix("binaries/") else {
             continue;
         };
@@ -235,15 +249,8 @@ fn the_fmu_for_all_platforms_has_a_binary_for_each() {
             "binaries/win64/HelicopterRotor.dll",
         ]
     );
-    let made_for: Vec<_> = self::binaries()
-        .iter()
-        .map(|(platform, content)| {
-            let file = object::File::parse(&**content).unwrap();
-            format!("{platform}: {:?} {:?}", file.format(), file.architecture())
-        })
-        .collect();
     assert_eq!(
-        made_for,
+        made_for(&self::binaries()),
         [
             "aarch64-darwin: MachO Aarch64",
             "aarch64-linux: Elf Aarch64",
@@ -255,27 +262,82 @@ fn the_fmu_for_all_platforms_has_a_binary_for_each() {
     );
 }
 
+fn made_for(binaries: &[(String, Vec<u8>)]) -> Vec<String> {
+    let made_for = binaries.iter().map(|(platform, content)| {
+        let file = object::File::parse(&**content).unwrap();
+        format!("{platform}: {:?} {:?}", file.format(), file.architecture())
+    });
+    made_for.collect()
+}
+
+/// The same libraries, but for macOS one for each processor.
+#[test]
+#[ignore = "needs the .fmu that .ci/platforms makes"]
+fn the_fmu_of_fmi_3_has_a_binary_for_each_platform() {
+    let [two, three] = [binaries(), binaries_in(&of_fmi3())];
+    assert_eq!(
+        made_for(&three),
+        [
+            "aarch64-darwin: MachO Aarch64",
+            "aarch64-linux: Elf Aarch64",
+            "x86_64-darwin: MachO X86_64",
+            "x86_64-linux: Elf X86_64",
+            "x86_64-windows: Pe X86_64",
+        ]
+    );
+    for (platform, content) in three {
+        assert!(
+            two.iter().any(|(_, other)| *other == content),
+            "{platform} has another library than the .fmu of FMI 2.0"
+        );
+    }
+}
+
+/// Code for Apple silicon is there once.
+#[test]
+#[ignore = "needs the .fmu that .ci/platforms makes"]
+fn the_library_in_aarch64_darwin_re_exports_that_in_darwin64() {
+    let name = "binaries/aarch64-darwin/HelicopterRotor.dylib";
+    let files = support::content(&for_all_platforms());
+    let re_exported = MachO::read(&files[name]).re_exported;
+    assert_eq!(
+        re_exported.as_deref(),
+        Some("@loader_path/../darwin64/HelicopterRotor.dylib")
+    );
+    let other = name.replace("aarch64-darwin", "darwin64");
+    assert!(files.contains_key(&other));
+    assert!(files[name].len() < 20_000, "it has code of its own");
+}
+
 #[test]
 #[ignore = "needs the .fmu that .ci/platforms makes"]
 fn every_binary_exports_the_functions_of_the_standard_and_nothing_else() {
     let standard = fmi2::legality::TABLE.iter().chain(fmi3::legality::TABLE);
     let standard: BTreeSet<_> = standard.map(|function| function.name.to_owned()).collect();
     assert_eq!(standard.len(), 44 + 75);
-    for (platform, content) in binaries() {
-        let file = object::File::parse(&*content).unwrap();
-        let names = file.exports().unwrap().map(|export| {
-            let export = export.unwrap();
-            let object::NameOrOrdinal::Name(name) = export.name() else {
-                panic!("{platform}: {export:?} has no name");
-            };
-            let name = str::from_utf8(name).unwrap();
-            // Mach-O puts an underscore before names of C.
-            let is_macho = file.format() == BinaryFormat::MachO;
-            let prefix = if is_macho { "_" } else { "" };
-            name.strip_prefix(prefix).unwrap().to_owned()
-        });
-        assert_eq!(names.collect::<BTreeSet<_>>(), standard, "{platform}");
+    let of_fmi2 = binaries();
+    let with_code = of_fmi2.iter().filter(|(p, _)| p != "aarch64-darwin");
+    let of_fmi3 = binaries_in(&of_fmi3());
+    for (platform, content) in with_code.chain(&of_fmi3) {
+        assert_eq!(functions(content), standard, "{platform}");
     }
+}
+
+/// The functions that a binary exports, as in C.
+fn functions(content: &[u8]) -> BTreeSet<String> {
+    let file = object::File::parse(content).unwrap();
+    let names = file.exports().unwrap().map(|export| {
+        let export = export.unwrap();
+        let object::NameOrOrdinal::Name(name) = export.name() else {
+            panic!("{export:?} has no name");
+        };
+        let name = str::from_utf8(name).unwrap();
+        // Mach-O puts an underscore before names of C.
+        let is_macho = file.format() == BinaryFormat::MachO;
+        let prefix = if is_macho { "_" } else { "" };
+        name.strip_prefix(prefix).unwrap().to_owned()
+    });
+    names.collect()
 }
 
 /// Some importers for ARM Linux look for `linux64`, where others have the binary for x86-64.
@@ -367,6 +429,8 @@ fn needed_by_elf(file: &object::read::elf::ElfFile64<'_>) -> BTreeSet<String> {
 /// What the load commands of a Mach-O file say.
 struct MachO {
     needed: BTreeSet<String>,
+    /// The library that it re-exports.
+    re_exported: Option<String>,
     name: String,
     /// The oldest macOS, as in 0x000b_0000 for 11.0.
     oldest: u32,
@@ -378,6 +442,7 @@ impl MachO {
     fn read(content: &[u8]) -> Self {
         let mut this = Self {
             needed: BTreeSet::new(),
+            re_exported: None,
             name: String::new(),
             oldest: u32::MAX,
             signature: None,
@@ -391,6 +456,11 @@ impl MachO {
                 String::from_utf8_lossy(text).into_owned()
             };
             match command.variant().unwrap() {
+                LoadCommandVariant::Dylib(dylib)
+                    if dylib.cmd.get(endian) == macho::LC_REEXPORT_DYLIB =>
+                {
+                    this.re_exported = Some(text(dylib.dylib.name));
+                }
                 LoadCommandVariant::Dylib(dylib) => {
                     this.needed.insert(text(dylib.dylib.name));
                 }
