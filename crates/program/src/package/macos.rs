@@ -38,33 +38,36 @@ pub fn universal(libraries: [&Binary; 2]) -> Binary {
     Binary([header, content].concat())
 }
 
-/// What goes into the folder of a platform in an .fmu of this version.
+/// What goes into the folder of a platform in an .fmu of this version; `library` is what was built
+/// for it.
 ///
 /// If there are a universal library and its part for Apple silicon, code for that processor goes
 /// into the .fmu once. Importers of FMI 2.0 look for it in `darwin64`, so `aarch64-darwin` gets a
-/// library that re-exports the one there. In FMI 3.0 each processor has its folder,
-/// so `x86_64-darwin` gets the other part alone.
+/// library that re-exports the one there. In FMI 3.0 each processor has its folder, so
+/// `x86_64-darwin` gets the other part alone.
 pub fn library_in<'a>(
     version: Version,
-    platform: Platform,
     contents: &'a Contents,
+    platform: Platform,
+    library: &'a Binary,
     identifier: &str,
 ) -> Result<Cow<'a, [u8]>, Failure> {
-    let library = |wanted| {
-        let found = contents.binaries.iter().find(|(p, _)| *p == wanted);
-        found.map(|(_, library)| &*library.0)
-    };
-    let part = |processor| library(Platform::Darwin64).and_then(|file| part(file, processor));
-    let apple_silicon = library(Platform::Aarch64Darwin);
-    let is_twice = apple_silicon.is_some() && part(Architecture::Aarch64) == apple_silicon;
+    let mut binaries = contents.binaries.iter();
+    let universal = binaries.find(|(platform, _)| *platform == Platform::Darwin64);
+    let part = |processor| universal.and_then(|(_, file)| part(&file.0, processor));
+    let is_there_twice = part(Architecture::Aarch64).is_some_and(|part| {
+        let mut binaries = contents.binaries.iter();
+        binaries
+            .any(|(platform, library)| *platform == Platform::Aarch64Darwin && library.0 == part)
+    });
     match (version, platform) {
-        (Version::Two, Platform::Aarch64Darwin) if is_twice => {
+        (Version::Two, Platform::Aarch64Darwin) if is_there_twice => {
             re_exporting(identifier).map(Cow::from)
         }
-        (Version::Three, Platform::Darwin64) if is_twice => {
-            Ok(part(Architecture::X86_64).unwrap_or_default().into())
+        (Version::Three, Platform::Darwin64) if is_there_twice => {
+            Ok(part(Architecture::X86_64).unwrap_or(&library.0).into())
         }
-        _ => Ok(library(platform).unwrap_or_default().into()),
+        _ => Ok((&library.0).into()),
     }
 }
 
@@ -118,7 +121,9 @@ fn re_exporting(identifier: &str) -> Result<Vec<u8>, Failure> {
         "-o",
         &name,
     ]);
-    said_by(&mut command)?;
+    said_by(&mut command).map_err(failed(
+        "cannot link the library in aarch64-darwin, which re-exports the one in darwin64; install Rust with rustup, whose linker rust-lld does it, or package the two in separate files",
+    ))?;
     files::read(&place(&name))
 }
 

@@ -160,13 +160,13 @@ fn archive(
     }
     add("modelDescription.xml", xml.as_bytes())?;
     let identifier = own.map_or(MODEL_IDENTIFIER, |own| &own.name);
-    for (platform, _) in &contents.binaries {
+    for (platform, binary) in &contents.binaries {
         if contents.is_for_arm_only && !is_fmi2 && *platform == Platform::Linux64 {
             // Importers of FMI 3.0 find the folder of their machine.
             continue;
         }
         let (folder, suffix) = (platform.folder_of(version), platform.suffix());
-        let library = macos::library_in(version, *platform, contents, identifier)?;
+        let library = macos::library_in(version, contents, *platform, binary, identifier)?;
         add(&format!("binaries/{folder}/{identifier}{suffix}"), &library)?;
     }
     let has_page = contents.page.is_some();
