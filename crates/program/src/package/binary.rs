@@ -1,6 +1,6 @@
 //! A built library: whether it is one of this FMU for a platform.
 
-use super::platform::Platform;
+use super::{macos::BESIDE, platform::Platform};
 use crate::{Failure, files};
 use helicopter_rotor::{
     block::variables::{GUID, INSTANTIATION_TOKEN},
@@ -55,6 +55,9 @@ fn check(platform: Platform, content: &[u8]) -> Result<(), String> {
             let mut windows = part.windows(token.len());
             windows.any(|window| window == token.as_bytes())
         };
+        if has(BESIDE) {
+            return Err("has no code, but re-exports the library in darwin64; name that library's part for arm64".into());
+        }
         if !has(GUID) || !has(INSTANTIATION_TOKEN) {
             return Err("was built from another modelDescription.xml than this program; build both again with `cargo build`".into());
         }

@@ -88,6 +88,8 @@ pub struct Contents {
     pub binaries: Vec<(Platform, Binary)>,
     /// The library in `linux64` is for ARM.
     pub is_for_arm_only: bool,
+    /// The libraries of both folders for macOS are there and were built here.
+    pub is_macos_built_here: bool,
     /// The page for browsers.
     pub page: Option<String>,
 }
@@ -99,6 +101,7 @@ impl Contents {
         Ok(Self {
             binaries: vec![(host, binary::read(host, library)?)],
             is_for_arm_only: false,
+            is_macos_built_here: false,
             page: None,
         })
     }
@@ -157,11 +160,15 @@ impl Selection {
         for one in &given {
             binaries.push((one.platform, binary::read(one.platform, &one.file)?));
         }
-        for platform in made_for {
-            if !binaries.iter().any(|(done, _)| *done == platform) {
-                binaries.push((platform, cross::build(platform, target)?));
-            }
+        let to_build: Vec<_> = made_for
+            .into_iter()
+            .filter(|platform| !given.iter().any(|one| one.platform == *platform))
+            .collect();
+        for platform in &to_build {
+            binaries.push((*platform, cross::build(*platform, target)?));
         }
+        let for_macos = [Platform::Darwin64, Platform::Aarch64Darwin];
+        let is_macos_built_here = for_macos.iter().all(|one| to_build.contains(one));
         binaries.sort_by_key(|(platform, _)| Platform::ALL.iter().position(|p| p == platform));
         let is_for_arm_only = wanted == Wanted::Arm;
         if is_for_arm_only {
@@ -171,6 +178,7 @@ impl Selection {
         Ok(Contents {
             binaries,
             is_for_arm_only,
+            is_macos_built_here,
             page: None,
         })
     }

@@ -296,17 +296,28 @@ fn the_fmu_of_fmi_3_has_a_binary_for_each_platform() {
 /// Code for Apple silicon is there once.
 #[test]
 #[ignore = "needs the .fmu that .ci/platforms makes"]
-fn the_library_in_aarch64_darwin_re_exports_that_in_darwin64() {
+fn the_library_in_aarch64_darwin_re_exports_that_in_darwin64_and_nothing_else() {
     let name = "binaries/aarch64-darwin/HelicopterRotor.dylib";
-    let files = support::content(&for_all_platforms());
-    let re_exported = MachO::read(&files[name]).re_exported;
+    let library = support::content(&for_all_platforms()).remove(name).unwrap();
+    let file = MachO::read(&library);
     assert_eq!(
-        re_exported.as_deref(),
-        Some("@loader_path/../darwin64/HelicopterRotor.dylib")
+        file.re_exported,
+        ["@loader_path/../darwin64/HelicopterRotor.dylib"]
     );
-    let other = name.replace("aarch64-darwin", "darwin64");
-    assert!(files.contains_key(&other));
-    assert!(files[name].len() < 20_000, "it has code of its own");
+    // With this flag dyld would not look for re-exported functions.
+    assert_eq!(file.flags & macho::MH_NO_REEXPORTED_DYLIBS.0, 0);
+    let file = object::File::parse(&*library).unwrap();
+    assert_eq!(file.sections().count(), 0, "it has code or data of its own");
+
+    // Given back, it is refused.
+    let given = scratch().join("re-exporting.dylib");
+    fs::write(&given, &library).unwrap();
+    let out = scratch().join("re-exporting.fmu");
+    let message = fail(&mut package(&out, &[&binary("aarch64-darwin", &given)]));
+    assert!(
+        message.contains("re-exports the library in darwin64"),
+        "{message}"
+    );
 }
 
 #[test]
@@ -429,8 +440,9 @@ fn needed_by_elf(file: &object::read::elf::ElfFile64<'_>) -> BTreeSet<String> {
 /// What the load commands of a Mach-O file say.
 struct MachO {
     needed: BTreeSet<String>,
-    /// The library that it re-exports.
-    re_exported: Option<String>,
+    /// The libraries that it re-exports.
+    re_exported: Vec<String>,
+    flags: u32,
     name: String,
     /// The oldest macOS, as in 0x000b_0000 for 11.0.
     oldest: u32,
@@ -442,13 +454,15 @@ impl MachO {
     fn read(content: &[u8]) -> Self {
         let mut this = Self {
             needed: BTreeSet::new(),
-            re_exported: None,
+            re_exported: vec![],
+            flags: 0,
             name: String::new(),
             oldest: u32::MAX,
             signature: None,
         };
         let header = MachHeader64::<object::Endianness>::parse(content, 0).unwrap();
         let endian = header.endian().unwrap();
+        this.flags = header.flags(endian).0;
         let mut commands = header.load_commands(endian, content, 0).unwrap();
         while let Some(command) = commands.next().unwrap() {
             let text = |place| {
@@ -459,7 +473,7 @@ impl MachO {
                 LoadCommandVariant::Dylib(dylib)
                     if dylib.cmd.get(endian) == macho::LC_REEXPORT_DYLIB =>
                 {
-                    this.re_exported = Some(text(dylib.dylib.name));
+                    this.re_exported.push(text(dylib.dylib.name));
                 }
                 LoadCommandVariant::Dylib(dylib) => {
                     this.needed.insert(text(dylib.dylib.name));
@@ -506,7 +520,7 @@ fn the_binaries_for_linux_run_with_glibc_2_17() {
 
 #[test]
 #[ignore = "needs the .fmu that .ci/platforms makes"]
-fn the_binaries_for_macos_run_with_version_11_from_any_folder() {
+fn the_binaries_for_macos_are_for_version_11_and_for_any_folder() {
     let mut count = 0;
     for (platform, content) in binaries() {
         if platform.contains("darwin") {
