@@ -1,15 +1,15 @@
 //! A built library: whether it is one of this FMU for a platform.
 
-use super::{macos::BESIDE, platform::Platform};
+use super::{
+    macos::{self, BINARIES},
+    platform::Platform,
+};
 use crate::{Failure, files};
 use helicopter_rotor::{
     block::variables::{GUID, INSTANTIATION_TOKEN},
     fmi2, fmi3,
 };
-use object::{
-    Architecture, BinaryFormat, FileKind, Object,
-    read::macho::{FatArch, MachOFatFile32},
-};
+use object::{Architecture, BinaryFormat, Object};
 use std::path::Path;
 
 /// The content of a shared library that has been checked.
@@ -33,7 +33,7 @@ pub fn read(platform: Platform, file: &Path) -> Result<Binary, Failure> {
 
 /// Fails with what is wrong with the content of a file, as a sentence without its subject.
 fn check(platform: Platform, content: &[u8]) -> Result<(), String> {
-    let parts = parts(content).map_err(|error| {
+    let parts = macos::parts(content).map_err(|error| {
         format!("is not a shared library that can be read ({error}); name a built library")
     })?;
     let mut serves_platform = false;
@@ -55,8 +55,8 @@ fn check(platform: Platform, content: &[u8]) -> Result<(), String> {
             let mut windows = part.windows(token.len());
             windows.any(|window| window == token.as_bytes())
         };
-        if has(BESIDE) {
-            return Err("has no code, but re-exports the library in darwin64; name that library's part for arm64".into());
+        if has(BINARIES) {
+            return Err("has no code: it re-exports the library in darwin64; name the one in binaries/aarch64-darwin of the .fmu of FMI 3.0".into());
         }
         if !has(GUID) || !has(INSTANTIATION_TOKEN) {
             return Err("was built from another modelDescription.xml than this program; build both again with `cargo build`".into());
@@ -77,19 +77,6 @@ fn check(platform: Platform, content: &[u8]) -> Result<(), String> {
         ));
     }
     Ok(())
-}
-
-/// The files in a universal file of macOS; any other file is one by itself.
-pub fn parts(content: &[u8]) -> Result<Vec<&[u8]>, object::Error> {
-    if FileKind::parse(content)? != FileKind::MachOFat32 {
-        return Ok(vec![content]);
-    }
-    let universal = MachOFatFile32::parse(content)?;
-    universal
-        .arches()
-        .iter()
-        .map(|part| part.data(content))
-        .collect()
 }
 
 /// The names of the exported functions, as in C.

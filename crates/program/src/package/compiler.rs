@@ -1,4 +1,4 @@
-//! What the compiler and other programs for building say of themselves.
+//! Asking the compiler, and other programs that build, for paths and versions.
 
 use crate::{Failure, failed, process};
 use std::{
@@ -8,7 +8,7 @@ use std::{
     time::Duration,
 };
 
-/// How long a program may take to say something, also if cargo must first download crates.
+/// How long such a program may take, also if cargo must first download crates.
 pub const LIMIT: Duration = Duration::from_secs(600);
 
 /// The command rustc.
@@ -21,16 +21,15 @@ pub fn sysroot() -> Result<PathBuf, Failure> {
     said_by(command().args(["--print", "sysroot"])).map(PathBuf::from)
 }
 
-/// What the compiler says of itself under a heading such as `host`.
-pub fn about(heading: &str) -> Result<Option<String>, Failure> {
-    let all = said_by(command().arg("-vV"))?;
-    let mut entries = all.lines().filter_map(|line| line.split_once(": "));
-    Ok(entries
-        .find(|(name, _)| *name == heading)
-        .map(|(_, entry)| entry.to_owned()))
+/// The commit of the compiler's source, if it names one.
+pub fn commit() -> Result<Option<String>, Failure> {
+    let version = said_by(command().arg("-vV"))?;
+    let mut lines = version.lines();
+    let commit = lines.find_map(|line| line.strip_prefix("commit-hash: "));
+    Ok(commit.map(str::to_owned))
 }
 
-/// What a program prints.
+/// What a program prints. Fails if its exit status is not 0.
 pub fn said_by(command: &mut Command) -> Result<String, Failure> {
     let sentence = format!("cannot run {}", command.get_program().display());
     let (status, said, errors) =

@@ -17,8 +17,6 @@ use std::{
 
 /// The oldest C library of Linux on which the library runs.
 const GLIBC: &str = "2.17";
-/// The oldest macOS.
-pub const MACOS: &str = "11.0";
 
 /// Builds the library for a platform with cargo, in a folder of its own in cargo's target folder.
 pub fn build(platform: Platform, target: &Path) -> Result<Binary, Failure> {
@@ -92,18 +90,14 @@ fn for_macos(target: &'static str, folder: &Path) -> Result<Binary, Failure> {
     };
     let mut build = Build::for_platform(platform, target)?;
     let mut command = cargo(target);
-    command.env("MACOSX_DEPLOYMENT_TARGET", MACOS);
+    command.env("MACOSX_DEPLOYMENT_TARGET", macos::OLDEST);
     let name = format!("@rpath/{MODEL_IDENTIFIER}{}", platform.suffix());
     if cfg!(target_os = "macos") {
         build.flags([&format!("-Clink-arg=-Wl,-install_name,{name}")]);
         return build.binary(platform, command, folder);
     }
     let sdk = folder.join("MacOSX.sdk");
-    files::make_folder(&sdk.join("usr/lib"))?;
-    for library in ["System", "c", "m", "iconv"] {
-        let file = sdk.join("usr/lib").join(format!("lib{library}.tbd"));
-        files::write(&file, include_bytes!("libSystem.tbd"))?;
-    }
+    macos::write_sdk(&sdk)?;
     // The linker strips: stripping afterwards would break the signature that it makes.
     command
         .env("SDKROOT", sdk)
@@ -188,9 +182,9 @@ impl Build {
             let flag = format!("--remap-path-prefix={}={to}", from.display());
             self.flags.push(flag);
         }
-        // Smaller files, as five of them go into one: with the threshold of level "s" instead of
-        // 225 they are 10 % smaller. Steps take 1 to 5 % more instructions, reading a file of 12
-        // Reynolds numbers 16 %.
+        // An .fmu has up to five of these libraries. With the inlining threshold of level "s", 50
+        // in place of 225, they are 10 % smaller. A step takes 1 to 5 % more instructions, reading
+        // a file of 12 Reynolds numbers 16 % more.
         self.flags.push("-Cllvm-args=-inline-threshold=50".into());
         command
             .args(["--release", "--locked", "--crate-type", "cdylib"])
@@ -208,7 +202,7 @@ fn renamed_folders(target: &str, target_folder: &Path) -> Result<Vec<(PathBuf, S
         (target_folder.to_path_buf(), "/target".to_owned()),
     ];
     // The standard library's source, if the component rust-src is installed.
-    let commit = compiler::about("commit-hash")?;
+    let commit = compiler::commit()?;
     renamed.push((
         compiler::sysroot()?.join("lib/rustlib/src/rust"),
         format!("/rustc/{}", commit.as_deref().unwrap_or("unknown")),

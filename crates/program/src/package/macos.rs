@@ -2,17 +2,36 @@
 //! gets of it.
 
 use super::{
-    Contents,
-    binary::{self, Binary},
-    compiler::{self, said_by},
-    cross::MACOS,
+    binary::Binary,
+    compiler::{self, LIMIT, said_by},
     platform::Platform,
 };
-use crate::{Failure, failed, files};
+use crate::{Failure, failed, files, process};
 use helicopter_rotor::fmi::legality::Version;
-use object::{Architecture, Object};
-use std::{borrow::Cow, env, process::Command};
+use object::{
+    Architecture, FileKind, Object,
+    read::macho::{FatArch, MachOFatFile32},
+};
+use std::{borrow::Cow, env, path::Path, process::Command};
 use tempfile::TempDir;
+
+/// The oldest macOS on which the libraries run.
+pub const OLDEST: &str = "11.0";
+
+/// The folder `binaries/`, as a library in one of its folders names it to the loader of macOS.
+pub const BINARIES: &str = "@loader_path/../";
+
+/// Writes what the linker of another system needs in the place of Apple's SDK: a list of what macOS
+/// 11 has.
+pub fn write_sdk(folder: &Path) -> Result<(), Failure> {
+    let libraries = folder.join("usr/lib");
+    files::make_folder(&libraries)?;
+    for name in ["System", "c", "m", "iconv"] {
+        let file = libraries.join(format!("lib{name}.tbd"));
+        files::write(&file, include_bytes!("libSystem.tbd"))?;
+    }
+    Ok(())
+}
 
 /// The universal file with two libraries for one processor each.
 pub fn universal(libraries: [&Binary; 2]) -> Binary {
@@ -38,44 +57,53 @@ pub fn universal(libraries: [&Binary; 2]) -> Binary {
     Binary([header, content].concat())
 }
 
-/// What goes into the folder of a platform in an .fmu of this version; `library` is what is there
-/// for it.
+/// The files in a universal file of macOS; any other file is one by itself.
+pub fn parts(content: &[u8]) -> Result<Vec<&[u8]>, object::Error> {
+    if FileKind::parse(content)? != FileKind::MachOFat32 {
+        return Ok(vec![content]);
+    }
+    let universal = MachOFatFile32::parse(content)?;
+    universal
+        .arches()
+        .iter()
+        .map(|part| part.data(content))
+        .collect()
+}
+
+/// What an .fmu of this version has in the folder of a platform, for which `library` was built or
+/// given. Only those for macOS may differ from it.
 ///
-/// If the libraries of both folders for macOS were built here, code for Apple silicon goes into the
-/// .fmu once. Importers of FMI 2.0 look for it in `darwin64`, so `aarch64-darwin` gets a library
-/// that re-exports the one there. In FMI 3.0 each processor has its folder, so `x86_64-darwin` gets
-/// the other part alone.
-pub fn library_in<'a>(
+/// If the two for macOS share code, that for Apple silicon goes into the .fmu once. Importers of
+/// FMI 2.0 look for it in `darwin64`, so `aarch64-darwin` gets a library that re-exports the one
+/// there. In FMI 3.0 each processor has its folder, so `x86_64-darwin` gets the other part alone.
+pub fn content_for<'a>(
     version: Version,
-    contents: &Contents,
     platform: Platform,
     library: &'a Binary,
+    is_code_shared: bool,
     identifier: &str,
 ) -> Result<Cow<'a, [u8]>, Failure> {
     match (version, platform) {
-        (Version::Two, Platform::Aarch64Darwin) if contents.is_macos_built_here => {
+        (Version::Two, Platform::Aarch64Darwin) if is_code_shared => {
             re_exporting(identifier).map(Cow::from)
         }
-        (Version::Three, Platform::Darwin64) if contents.is_macos_built_here => {
+        (Version::Three, Platform::Darwin64) if is_code_shared => {
             let part = part(&library.0, Architecture::X86_64);
             part.map(Cow::from).ok_or_else(|| {
-                Failure("the library built for darwin64 has no part for x86-64".into())
+                Failure("the library built for darwin64 has no part for x86-64; name a built library with --binary darwin64=FILE".into())
             })
         }
         _ => Ok((&library.0).into()),
     }
 }
 
-/// The part for a processor of a universal file.
+/// The part of a universal file for a processor.
 fn part(file: &[u8], wanted: Architecture) -> Option<&[u8]> {
-    let parts = binary::parts(file).ok()?;
+    let parts = parts(file).ok()?;
     parts
         .into_iter()
         .find(|part| object::File::parse(*part).is_ok_and(|file| file.architecture() == wanted))
 }
-
-/// The folder beside that of the library that names it.
-pub const BESIDE: &str = "@loader_path/../";
 
 /// A library for Apple silicon without code, which re-exports the one in `darwin64`.
 fn re_exporting(identifier: &str) -> Result<Vec<u8>, Failure> {
@@ -84,50 +112,43 @@ fn re_exporting(identifier: &str) -> Result<Vec<u8>, Failure> {
     let name = format!("{identifier}.dylib");
     // All that a linker must know of the other library.
     let other = format!(
-        "--- !tapi-tbd\ntbd-version: 4\ntargets: [ arm64-macos ]\ninstall-name: '{BESIDE}{}/{name}'\ncurrent-version: 0\ncompatibility-version: 0\n...\n",
+        "--- !tapi-tbd\ntbd-version: 4\ntargets: [ arm64-macos ]\ninstall-name: '{BINARIES}{}/{name}'\ncurrent-version: 0\ncompatibility-version: 0\n...\n",
         Platform::Darwin64
     );
     files::write(&place("other.tbd"), other.as_bytes())?;
-    let mut command = if cfg!(target_os = "macos") {
+    let (mut command, remedy) = if cfg!(target_os = "macos") {
         files::write(&place("none.c"), b"")?;
         let mut compiler = Command::new("cc");
         compiler.args(["-dynamiclib", "-arch", "arm64"]);
-        compiler.args([&format!("-mmacosx-version-min={MACOS}"), "none.c"]);
+        compiler.args([&format!("-mmacosx-version-min={OLDEST}"), "none.c"]);
         compiler.args(["-Wl,-reexport_library,other.tbd"]);
-        compiler
+        (
+            compiler,
+            "install Apple's linker with `xcode-select --install`",
+        )
     } else {
-        files::make_folder(&place("usr/lib"))?;
-        files::write(
-            &place("usr/lib/libSystem.tbd"),
-            include_bytes!("libSystem.tbd"),
-        )?;
+        write_sdk(folder.path())?;
         let mut linker = linker()?;
         linker.args(["-flavor", "ld64", "-dylib", "-arch", "arm64"]);
-        linker.args(["-platform_version", "macos", MACOS, MACOS]);
-        linker.args([
-            "-syslibroot",
-            ".",
-            "-lSystem",
-            "-reexport_library",
-            "other.tbd",
-        ]);
-        linker
+        linker.args(["-platform_version", "macos", OLDEST, OLDEST]);
+        linker.args(["-syslibroot", ".", "-lSystem"]);
+        linker.args(["-reexport_library", "other.tbd"]);
+        (
+            linker,
+            "install Rust with rustup, which brings the linker rust-lld",
+        )
     };
-    command.current_dir(folder.path()).args([
-        "-install_name",
-        &format!("@rpath/{name}"),
-        "-o",
-        &name,
-    ]);
-    said_by(&mut command).map_err(failed(
-        "cannot link the library in aarch64-darwin, which re-exports the one in darwin64; install Rust with rustup, whose linker rust-lld does it, or name a built library with --binary aarch64-darwin=FILE",
-    ))?;
+    command.current_dir(folder.path());
+    command.args(["-install_name", &format!("@rpath/{name}"), "-o", &name]);
+    process::run_quietly(&mut command, LIMIT).map_err(failed(format!(
+        "cannot link the library in aarch64-darwin, which re-exports the one in darwin64; {remedy}, or name a built library with --binary aarch64-darwin=FILE"
+    )))?;
     files::read(&place(&name))
 }
 
 /// The linker of rustup's compiler or, if it has none, that on the PATH.
 fn linker() -> Result<Command, Failure> {
-    let host = compiler::about("host")?.unwrap_or_default();
+    let host = said_by(compiler::command().args(["--print", "host-tuple"]))?;
     let name = format!("rust-lld{}", env::consts::EXE_SUFFIX);
     let own = compiler::sysroot()?.join(format!("lib/rustlib/{host}/bin/{name}"));
     Ok(Command::new(if own.is_file() { own } else { name.into() }))
@@ -150,31 +171,22 @@ mod tests {
     }
 
     #[test]
-    fn fmi_3_gets_the_part_for_its_processor_and_given_libraries_stay_whole() {
+    fn x86_64_darwin_of_fmi_3_gets_the_part_for_intel_and_given_libraries_stay_whole() {
         let intel = header(CPU_TYPE_X86_64);
         let apple = header(CPU_TYPE_ARM64);
         let both = universal([&intel, &apple]);
         let (darwin64, silicon) = (Platform::Darwin64, Platform::Aarch64Darwin);
-        for is_macos_built_here in [true, false] {
-            let contents = Contents {
-                binaries: vec![(darwin64, both.clone()), (silicon, apple.clone())],
-                is_for_arm_only: false,
-                is_macos_built_here,
-                page: None,
-            };
+        for is_code_shared in [true, false] {
             let content = |version, platform, library| {
-                library_in(version, &contents, platform, library, "Rotor").unwrap()
+                content_for(version, platform, library, is_code_shared, "Rotor").unwrap()
             };
             assert_eq!(content(Version::Two, darwin64, &both), both.0);
             assert_eq!(content(Version::Three, silicon, &apple), apple.0);
-            let in_fmi3 = content(Version::Three, darwin64, &both);
-            if is_macos_built_here {
-                assert_eq!(in_fmi3, intel.0);
-            } else {
-                assert_eq!(in_fmi3, both.0);
-                assert_eq!(content(Version::Two, silicon, &apple), apple.0);
-            }
+            let in_fmi3 = if is_code_shared { &intel } else { &both };
+            assert_eq!(content(Version::Three, darwin64, &both), in_fmi3.0);
         }
+        let given = content_for(Version::Two, silicon, &apple, false, "Rotor").unwrap();
+        assert_eq!(given, apple.0);
     }
 
     #[test]

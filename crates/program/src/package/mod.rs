@@ -5,7 +5,7 @@
 //! * `library.rs`: building the library for this machine
 //! * `cross.rs`: building it for other machines
 //! * `macos.rs`: what is made from libraries for macOS
-//! * `compiler.rs`: what the compiler says of itself
+//! * `compiler.rs`: asking the compiler, and other programs that build, for paths and versions
 //! * `binary.rs`: checking a built library
 //! * `documentation.rs`: the documentation page
 //! * `own_rotor.rs`: what makes an .fmu that of one rotor
@@ -166,7 +166,13 @@ fn archive(
             continue;
         }
         let (folder, suffix) = (platform.folder_of(version), platform.suffix());
-        let library = macos::library_in(version, contents, *platform, binary, identifier)?;
+        let library = macos::content_for(
+            version,
+            *platform,
+            binary,
+            contents.is_macos_code_shared,
+            identifier,
+        )?;
         add(&format!("binaries/{folder}/{identifier}{suffix}"), &library)?;
     }
     let has_page = contents.page.is_some();

@@ -14,8 +14,8 @@ pub struct Selection {
     /// Platforms of the .fmu: `all`, `arm`, or a list such as linux64,win64 [default: those of
     /// --binary, or this machine's]
     ///
-    /// The platforms are linux64, win64, darwin64 (for both processors), aarch64-linux and
-    /// aarch64-darwin. Their libraries are built with cargo in target/platforms, for Linux with
+    /// The platforms are linux64, win64, darwin64 (for both processors; in FMI 3.0 beside
+    /// aarch64-darwin for Intel alone), aarch64-linux and aarch64-darwin. Their libraries are built with cargo in target/platforms, for Linux with
     /// glibc 2.17 and macOS 11 or later; what that needs is told where it is missing.
     ///
     /// `arm` makes an .fmu for ARM Linux only: its folder linux64 contains the library of
@@ -88,8 +88,9 @@ pub struct Contents {
     pub binaries: Vec<(Platform, Binary)>,
     /// The library in `linux64` is for ARM.
     pub is_for_arm_only: bool,
-    /// The libraries of both folders for macOS are there and were built here.
-    pub is_macos_built_here: bool,
+    /// The libraries of both folders for macOS were built here, so that they may share the code for
+    /// Apple silicon. Given libraries stay as they are.
+    pub is_macos_code_shared: bool,
     /// The page for browsers.
     pub page: Option<String>,
 }
@@ -101,7 +102,7 @@ impl Contents {
         Ok(Self {
             binaries: vec![(host, binary::read(host, library)?)],
             is_for_arm_only: false,
-            is_macos_built_here: false,
+            is_macos_code_shared: false,
             page: None,
         })
     }
@@ -168,7 +169,7 @@ impl Selection {
             binaries.push((*platform, cross::build(*platform, target)?));
         }
         let for_macos = [Platform::Darwin64, Platform::Aarch64Darwin];
-        let is_macos_built_here = for_macos.iter().all(|one| to_build.contains(one));
+        let is_macos_code_shared = for_macos.iter().all(|one| to_build.contains(one));
         binaries.sort_by_key(|(platform, _)| Platform::ALL.iter().position(|p| p == platform));
         let is_for_arm_only = wanted == Wanted::Arm;
         if is_for_arm_only {
@@ -178,7 +179,7 @@ impl Selection {
         Ok(Contents {
             binaries,
             is_for_arm_only,
-            is_macos_built_here,
+            is_macos_code_shared,
             page: None,
         })
     }

@@ -270,7 +270,7 @@ fn made_for(binaries: &[(String, Vec<u8>)]) -> Vec<String> {
     made_for.collect()
 }
 
-/// The same libraries, but for macOS one for each processor.
+/// Each is, byte for byte, a library or a part of one in the .fmu of FMI 2.0.
 #[test]
 #[ignore = "needs the .fmu that .ci/platforms makes"]
 fn the_fmu_of_fmi_3_has_a_binary_for_each_platform() {
@@ -308,21 +308,49 @@ fn the_library_in_aarch64_darwin_re_exports_that_in_darwin64_and_nothing_else() 
     assert_eq!(file.flags & macho::MH_NO_REEXPORTED_DYLIBS.0, 0);
     let file = object::File::parse(&*library).unwrap();
     assert_eq!(file.sections().count(), 0, "it has code or data of its own");
-
-    // Given back, it is refused.
-    let given = scratch().join("re-exporting.dylib");
-    fs::write(&given, &library).unwrap();
-    let out = scratch().join("re-exporting.fmu");
-    let message = fail(&mut package(&out, &[&binary("aarch64-darwin", &given)]));
-    assert!(
-        message.contains("re-exports the library in darwin64"),
-        "{message}"
-    );
 }
 
 #[test]
 #[ignore = "needs the .fmu that .ci/platforms makes"]
-fn every_binary_exports_the_functions_of_the_standard_and_nothing_else() {
+fn a_library_that_only_re_exports_is_refused() {
+    let name = "binaries/aarch64-darwin/HelicopterRotor.dylib";
+    let given = scratch().join("re-exporting.dylib");
+    fs::write(&given, &support::content(&for_all_platforms())[name]).unwrap();
+    let out = scratch().join("re-exporting.fmu");
+    let message = fail(&mut package(&out, &[&binary("aarch64-darwin", &given)]));
+    assert!(
+        message.contains("it re-exports the library in darwin64"),
+        "{message}"
+    );
+}
+
+/// For importers that unpack one folder alone.
+#[test]
+#[ignore = "needs the .fmu that .ci/platforms makes"]
+fn given_libraries_for_macos_stay_as_they_are() {
+    let [two, three] = [for_all_platforms(), of_fmi3()].map(|fmu| support::content(&fmu));
+    let universal = &two["binaries/darwin64/HelicopterRotor.dylib"];
+    let silicon = &three["binaries/aarch64-darwin/HelicopterRotor.dylib"];
+    let options =
+        [("darwin64", universal), ("aarch64-darwin", silicon)].map(|(platform, library)| {
+            let file = scratch().join(format!("given-{platform}.dylib"));
+            fs::write(&file, library).unwrap();
+            binary(platform, &file)
+        });
+    let out = scratch().join("given-macos.fmu");
+    succeed(&mut package(&out, &[&options[0], &options[1]]));
+    let of_fmi3 = scratch().join("given-macos-fmi3.fmu");
+    for (fmu, darwin64) in [(&out, "darwin64"), (&of_fmi3, "x86_64-darwin")] {
+        let content = support::content(fmu);
+        let library = |folder: &str| &content[&format!("binaries/{folder}/HelicopterRotor.dylib")];
+        assert!(library(darwin64) == universal, "{darwin64}");
+        assert!(library("aarch64-darwin") == silicon, "{darwin64}");
+    }
+}
+
+#[test]
+#[ignore = "needs the .fmu that .ci/platforms makes"]
+fn every_binary_with_code_exports_the_functions_of_the_standard_and_nothing_else() {
     let standard = fmi2::legality::TABLE.iter().chain(fmi3::legality::TABLE);
     let standard: BTreeSet<_> = standard.map(|function| function.name.to_owned()).collect();
     assert_eq!(standard.len(), 44 + 75);
@@ -520,7 +548,7 @@ fn the_binaries_for_linux_run_with_glibc_2_17() {
 
 #[test]
 #[ignore = "needs the .fmu that .ci/platforms makes"]
-fn the_binaries_for_macos_are_for_version_11_and_for_any_folder() {
+fn the_binaries_for_macos_are_for_version_11_and_are_named_without_a_folder() {
     let mut count = 0;
     for (platform, content) in binaries() {
         if platform.contains("darwin") {
