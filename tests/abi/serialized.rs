@@ -189,6 +189,7 @@ fn bytes_that_are_no_state_of_this_fmu_are_refused_with_the_reason() {
     refused(&good[..good.len() - 1], &["cut short"]);
     refused(&good[..CONTENT_AT], &["cut short"]);
     refused(&[&good[..], b"\0"].concat(), &["too long"]);
+    refused(&vec![0; 2 << 20], &["more bytes than it should have"]);
     refused(&changed(LENGTH_AT + 7, |_| 255), &["cut short"]);
     refused(
         &changed(CONTENT_AT + 100, |b| b ^ 0x10),

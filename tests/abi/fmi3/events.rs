@@ -74,6 +74,37 @@ fn a_step_returns_early_at_an_event_and_the_new_value_comes_in_event_mode() {
     );
 }
 
+/// While the inputs are held the wake grows, and with it the thrust and the flow state change.
+#[test]
+fn a_step_with_held_inputs_returns_early_at_an_event_too() {
+    let early = (4..100).find_map(|quarters| {
+        let creation = Creation3 {
+            event_mode: true,
+            early_return: true,
+            ..Creation3::default()
+        };
+        let instance = creation.make().unwrap();
+        instance.ok(instance.choose("models.inflow", 12));
+        instance.initialize();
+        instance.update_discrete_states();
+        let climb = -0.25 * f64::from(quarters);
+        instance.ok(instance.set_floats(&["velocity"], &[0.0, 0.0, climb]));
+        instance.update_discrete_states();
+        let before = instance.choice("flowState");
+        instance.enter_step_mode();
+        let stepped = instance.step(0.0, 0.2);
+        stepped.is_early.then_some((instance, stepped, before))
+    });
+    let (instance, stepped, before) = early.expect("in some descent the flow state changes");
+    assert!(stepped.needs_event, "{stepped:?}");
+    assert!(stepped.time > 0.0 && stepped.time < 0.2, "{stepped:?}");
+    assert_eq!(instance.float("time"), stepped.time);
+    assert_eq!(instance.choice("flowState"), before);
+    instance.enter_event_mode();
+    instance.update_discrete_states();
+    assert_ne!(instance.choice("flowState"), before);
+}
+
 #[test]
 fn without_early_return_the_event_is_told_at_the_end_of_the_step() {
     let instance = made(true, false);
