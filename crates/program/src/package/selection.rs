@@ -15,8 +15,9 @@ pub struct Selection {
     /// --binary, or this machine's]
     ///
     /// The platforms are linux64, win64, darwin64 (for both processors; in FMI 3.0 beside
-    /// aarch64-darwin for Intel alone), aarch64-linux and aarch64-darwin. Their libraries are built with cargo in target/platforms, for Linux with
-    /// glibc 2.17 and macOS 11 or later; what that needs is told where it is missing.
+    /// aarch64-darwin for Intel alone), aarch64-linux and aarch64-darwin. Their libraries are built
+    /// with cargo in target/platforms, for Linux with glibc 2.17 and macOS 11 or later; what that
+    /// needs is told where it is missing.
     ///
     /// `arm` makes an .fmu for ARM Linux only: its folder linux64 contains the library of
     /// aarch64-linux, since some importers look for it there.

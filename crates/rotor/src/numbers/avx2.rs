@@ -244,8 +244,8 @@ impl Plain for Avx2 {
     }
     #[inline(always)]
     fn rows(table: &[[f64; 4]], index: &[usize; LANES]) -> [Self; 4] {
-        // Not by `index.map`: where little is inlined it is called, 12,000 instructions of an azimuth
-        // step.
+        // Not by `index.map`: where little is inlined it is called, 12,000 instructions of an
+        // azimuth step.
         let row = [
             &table[index[0]],
             &table[index[1]],
