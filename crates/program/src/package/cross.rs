@@ -183,8 +183,8 @@ impl Build {
             self.flags.push(flag);
         }
         // An .fmu has up to five of these libraries. With the inlining threshold of level "s", 50
-        // in place of 225, they are 10 % smaller. A step takes 1 to 5 % more instructions, reading
-        // a file of 12 Reynolds numbers 16 % more.
+        // in place of 225, they are 10 % smaller. A step takes up to 5 % more instructions, a start
+        // in hover, which is mostly reading files, 12 to 16 % more.
         self.flags.push("-Cllvm-args=-inline-threshold=50".into());
         command
             .args(["--release", "--locked", "--crate-type", "cdylib"])
